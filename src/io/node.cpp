@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "base/same_name.hpp"
 #include "io/quantity.hpp"
 #include "io/visible.hpp"
 
@@ -113,7 +114,8 @@ std::string lowered(std::string_view text) {
 }  // namespace
 
 const Node* Node::find(std::string_view key) const {
-  const auto found = std::ranges::find(members, key, &Member::key);
+  const auto found =
+      std::ranges::find_if(members, [&](const Member& member) { return is_same_name(member.key, key); });
   return found == members.end() ? nullptr : &found->value;
 }
 
@@ -276,6 +278,7 @@ bool NodeBuilder::open(Node::Kind list_or_map, int line, int column) {
     node.items.reserve(usual);
   else
     node.members.reserve(usual);
+  if (open_.empty()) open_.reserve(usual);
   open_.push_back({&node});
   return true;
 }
@@ -314,12 +317,14 @@ std::optional<int> NodeBuilder::Level::line_of(std::string_view key) {
   constexpr std::size_t few = 24;  // a search of more would be quadratic
   const auto& members = node->members;
   if (members.size() <= few) {
-    const auto found = std::ranges::find(members, key, &Member::key);
+    const auto found =
+        std::ranges::find_if(members, [&](const Member& member) { return is_same_name(member.key, key); });
     return found == members.end() ? std::nullopt : std::optional(found->line);
   }
-  for (; indexed < members.size(); ++indexed) lines.try_emplace(members[indexed].key, members[indexed].line);
-  const auto found = lines.find(std::string(key));
-  return found == lines.end() ? std::nullopt : std::optional(found->second);
+  if (!lines) lines = std::make_unique<std::unordered_map<std::string, int>>();
+  for (; indexed < members.size(); ++indexed) lines->try_emplace(members[indexed].key, members[indexed].line);
+  const auto found = lines->find(std::string(key));
+  return found == lines->end() ? std::nullopt : std::optional(found->second);
 }
 
 std::pair<int, int> NodeBuilder::key_place() const {

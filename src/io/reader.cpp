@@ -95,8 +95,9 @@ Reader Reader::required(std::string_view key, std::string_view meaning) {
 }
 
 std::optional<Reader> Reader::optional(std::string_view key) {
-  if (!has(key)) return {};
-  return Reader(document_, sink_, node_->find(key), joined(path_, key));
+  const Node* value = given(key);
+  if (!value) return {};
+  return Reader(document_, sink_, value, joined(path_, key));
 }
 
 void Reader::know(std::string_view key) {
@@ -105,11 +106,13 @@ void Reader::know(std::string_view key) {
   known_.push_back(key);
 }
 
-bool Reader::has(std::string_view key) {
+bool Reader::has(std::string_view key) { return given(key) != nullptr; }
+
+const Node* Reader::given(std::string_view key) {
   know(key);
-  if (!expect(Node::Kind::map, "a map of keys")) return false;
+  if (!expect(Node::Kind::map, "a map of keys")) return nullptr;
   const Node* value = node_->find(key);
-  return value && value->kind != Node::Kind::null;
+  return value && value->kind != Node::Kind::null ? value : nullptr;
 }
 
 std::vector<std::pair<std::string, Reader>> Reader::members() const {

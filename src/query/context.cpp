@@ -52,6 +52,7 @@ AskedPose read_asked_pose(Context& context) {
         "the pose");
     return asked;
   }
+  asked.independent = {free, mode};
   const ConstrainedPose found = constrained_pose(context.robot, free, mode);
   asked.pose = found.pose;
   asked.report = found.report;
@@ -112,19 +113,17 @@ std::vector<double> read_inputs(Context& context, const Reader& inputs) {
 Configuration read_configuration(Context& context) {
   Configuration configuration;
   configuration.branch = read_branch(context);
-  AskedPose asked = read_asked_pose(context);
-  configuration.pose = asked.pose;
-  configuration.report = asked.report;
+  configuration.at = read_asked_pose(context);
   if (const auto inputs = context.query.optional("inputs"))
     configuration.inputs = read_inputs(context, *inputs);
   configuration.start = read_start(context);
-  if (!configuration.pose && !configuration.inputs)
+  if (!configuration.at.pose && !configuration.inputs)
     context.query.fail("missing_key", "give a pose, or inputs, or both");
   if (configuration.inputs && !configuration.branch.is_default())
     context.query.fail(
         "ambiguous",
         "bending, curvature and elbow choose among solutions; the inputs are given, remove them");
-  if (configuration.pose && context.names_start)
+  if (configuration.at.pose && context.names_start)
     context.query.fail("ambiguous",
                        "start is where a search for the pose begins; the pose is given, remove it");
   return configuration;
@@ -132,12 +131,13 @@ Configuration read_configuration(Context& context) {
 
 Solved solve_configuration(Context& context, const Configuration& given) {
   Workspace& work = context.work;
-  if (!given.report.ok()) return {given.report, *given.pose, {}};
+  const std::optional<AnyPose>& pose = given.at.pose;
+  if (!given.at.report.ok()) return {given.at.report, *pose, {}};
   if (!given.inputs) {
-    const Inverse solved = inverse(context.robot, *given.pose, given.branch.options(), work);
-    return {solved.report, *given.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
+    const Inverse solved = inverse(context.robot, *pose, given.branch.options(), work);
+    return {solved.report, *pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
-  if (!given.pose) {
+  if (!pose) {
     ForwardOptions options{.start = given.start, .max_iterations = context.max_iterations.value_or(100)};
     if (!given.start) options.start = context.path_start();
     const Forward solved = forward(context.robot, *given.inputs, options, work);
@@ -145,7 +145,7 @@ Solved solve_configuration(Context& context, const Configuration& given) {
     return {solved.report, solved.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
   Report report = coordinates_from_inputs(context.robot, *given.inputs, work);
-  Solved solved{report, *given.pose, work.coordinates};
+  Solved solved{report, *pose, work.coordinates};
   if (!report.ok()) return solved;
   const Reduced reduced = assemble(context.robot, solved.pose, solved.coordinates, work);
   solved.report.residual = reduced.closure_error;
@@ -172,7 +172,7 @@ namespace {
 void add_tilt_of(Value* pose) {
   const Value* quaternion = pose ? pose->find("quaternion") : nullptr;
   if (!quaternion) return;
-  const std::vector<double>& q = quaternion->block()->numbers;
+  const std::span<const double> q = quaternion->block()->numbers();
   const TiltTorsion angles = tilt_torsion({q[0], Vec3<double>(q[1], q[2], q[3])});
   (*pose)["tilt"] = angles.tilt;
   (*pose)["azimuth"] = angles.azimuth;

@@ -8,10 +8,16 @@
 #include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/io/reader.hpp"
+#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 #include "sinew/robot/workspace.hpp"
 
 namespace sinew::inline v1 {
+
+/// Kinds of questions, in the order of `question_kinds`, which names them.
+enum class Ask { forward, inverse, velocity, shape, statics, track, diagram, identify, describe };
+
+struct Handlers;
 
 /// When the search for a pose begins where the last one ended.
 enum class Continues { always, where_asked };
@@ -22,7 +28,9 @@ struct Question {
   Reader& query;
   Errors& errors;
   Value& answer;
-  std::optional<int> max_iterations;
+  const Handlers& handlers;  ///< of the robot's mechanics
+  Ask ask;
+  std::optional<int> max_iterations = {};
   /// The pose last answered, where a search may begin. Null for a question by itself.
   std::optional<AnyPose>* last = nullptr;
   /// On a path of questions always: the workspace then still holds that answer. In a session where `start`
@@ -33,9 +41,11 @@ struct Question {
   bool is_only_read = false;    ///< nothing is computed: what is wrong with the fields is all that is asked
 
   /// True when all fields are read, none is left over and none was wrong, and the answer is wanted.
-  bool ready() {
+  bool ready() { return is_read() && !is_only_read; }
+  /// The same whether or not the answer is wanted.
+  bool is_read() {
     query.close();
-    return errors.empty() && !is_only_read;
+    return errors.empty();
   }
   /// Where a question that names no start begins on a path of questions.
   std::optional<AnyPose> path_start() const {
@@ -91,6 +101,7 @@ std::optional<AnyPose> read_start(Context& context);
 struct AskedPose {
   std::optional<AnyPose> pose;
   Report report;
+  std::optional<std::pair<IndependentPose, OperationMode>> independent;  ///< what gave it, if that did
 };
 AskedPose read_asked_pose(Context& context);
 Branch read_branch(Context& context);
@@ -98,10 +109,10 @@ std::vector<double> read_inputs(Context& context, const Reader& inputs);
 
 /// A configuration as a query gives it: a pose with a branch, a pose with `inputs`, or `inputs` with `start`.
 struct Configuration {
-  std::optional<AnyPose> pose, start;
-  Report report;  ///< of the pose
-  std::optional<std::vector<double>> inputs;
-  Branch branch;
+  AskedPose at = {};
+  std::optional<AnyPose> start = {};
+  std::optional<std::vector<double>> inputs = {};
+  Branch branch = {};
 };
 
 /// The same, solved.
@@ -138,8 +149,12 @@ void put_type_2_distance(Context& context, const Along& along, const Configurati
 inline constexpr int default_path_samples = 60, max_path_samples = 100000;
 /// Poses of a path: a list, or samples of a straight line.
 std::vector<AnyPose> read_path(Context& context);
+/// Where along a path of so many samples it ended, and why.
+/// @param beyond how much of the way from the last row to the next one was gone
+/// @param pose where it ended
+void put_path_end(Context& context, const Report& report, std::size_t rows, std::size_t samples,
+                  double beyond, const AnyPose& pose);
 Objective read_objective(Reader& query);
-std::string in_words(const AnyPose& pose);
 
 void put_shape(Value& answer, const AnyShape& picture);
 

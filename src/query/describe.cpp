@@ -111,8 +111,7 @@ Value pose_coordinates(bool is_planar) {
 
 }  // namespace
 
-void answer_describe(Context& context) {
-  if (!context.ready()) return;
+void describe_platform(Context& context) {
   Value inputs = Value::list(), legs = Value::list();
   with_legs(context.robot, [&](const auto& robot) {
     robot.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {

@@ -1,73 +1,72 @@
 /// @file handlers.hpp
-/// Handlers of queries: a function for each kind of question and of mechanics. The table is in session.cpp.
+/// Who answers questions: of each kind of mechanics one object with what it tells, what it lacks, and a
+/// handler for each kind of question. session.cpp chooses among them.
 #pragma once
-#include "query/context.hpp"
+#include <array>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "query/wants.hpp"
 
 namespace sinew::inline v1 {
 
-/// @name Legs that bear no load: arcs and rails
-/// @{
-void answer_kinematic_forward(Context& context);
-void answer_kinematic_inverse(Context& context);
-void answer_kinematic_velocity(Context& context);
-void answer_kinematic_shape(Context& context);
-void answer_kinematic_track(Context& context);
-/// @}
+class RowPlaces;
+struct SamplerKind;
 
-/// @name Pseudo-rigid chains
-/// @{
-void answer_chains_forward(Context& context);
-void answer_chains_inverse(Context& context);
-void answer_chains_velocity(Context& context);
-void answer_chains_shape(Context& context);
-void answer_chains_statics(Context& context);
-void answer_chains_track(Context& context);
-/// @}
+using Handler = void (*)(Context&);
 
-/// @name Elastic rods
-/// @{
-void answer_rods_forward(Context& context);
-void answer_rods_inverse(Context& context);
-void answer_rods_velocity(Context& context);
-void answer_rods_shape(Context& context);
-void answer_rods_statics(Context& context);
-void answer_rods_track(Context& context);
-/// @}
+namespace handlers {
+template <class Asked, class Own>
+Own own_of(Asked (*)(Own&));
+}  // namespace handlers
 
-/// @name Serial robots
-/// @{
-void answer_serial_forward(Context& context);
-void answer_serial_inverse(Context& context);
-void answer_serial_velocity(Context& context);
-void answer_serial_shape(Context& context);
-void answer_serial_describe(Context& context);
-void answer_serial_diagram(Context& context);
-/// @}
+/// A handler of a reader, which takes all fields of its question and computes nothing, and of what answers
+/// the question that it read. Both see the question as their mechanics do: as a Context, or what is made of
+/// one.
+template <auto read, auto answer>
+void handle(Context& context) {
+  using Own = decltype(handlers::own_of(read));
+  std::conditional_t<std::is_same_v<Own, Context>, Context&, Own> own(context);
+  const auto asked = read(own);
+  if (own.ready()) answer(own, asked);
+}
+/// The same of a question that has no fields of its own.
+template <void (*answer)(Context&)>
+void tell(Context& context) {
+  if (context.ready()) answer(context);
+}
 
-/// @name Arms
-/// @{
-void answer_arm_describe(Context& context);
-/// @}
+/// A field that other robots have in every question that solves, with why these have none.
+struct Lack {
+  std::string_view field, why;
+};
 
-/// @name Arms that bear loads
-/// @{
-void answer_arms_forward(Context& context);
-void answer_arms_inverse(Context& context);
-void answer_arms_velocity(Context& context);
-void answer_arms_shape(Context& context);
-void answer_arms_statics(Context& context);
-void answer_arms_track(Context& context);
-void answer_arms_identify(Context& context);
-/// @}
+/// One kind of mechanics. A handler that is null: nobody answers that in this version.
+struct Handlers {
+  std::string_view robots;  ///< as refusals call them
+  Wants wants;              ///< what they tell of a configuration
+  Handler forward = nullptr, inverse = nullptr, velocity = nullptr, shape = nullptr, statics = nullptr,
+          track = nullptr, diagram = nullptr, identify = nullptr, describe = nullptr;
+  std::span<const Lack> lacks = {};
+  /// What computes many rows of a question without asking each; empty `make` where there is nothing quicker.
+  SamplerKind (*plan)(Context&, const RowPlaces&) = nullptr;
 
-/// @name Platforms on arms
-/// @{
-void answer_arm_legs_forward(Context& context);
-void answer_arm_legs_velocity(Context& context);
-void answer_arm_legs_shape(Context& context);
-void answer_arm_legs_describe(Context& context);
-/// @}
+  constexpr Handler of(Ask ask) const {
+    constexpr Handler Handlers::*by_kind[] = {&Handlers::forward, &Handlers::inverse,  &Handlers::velocity,
+                                              &Handlers::shape,   &Handlers::statics,  &Handlers::track,
+                                              &Handlers::diagram, &Handlers::identify, &Handlers::describe};
+    return this->*by_kind[static_cast<std::size_t>(ask)];
+  }
+};
 
-void answer_describe(Context& context);  ///< of robots with a platform
+extern const Handlers kinematic_handlers;  ///< of legs that bear no load: arcs and rails
+extern const Handlers chain_handlers;      ///< of pseudo-rigid chains
+extern const Handlers rod_handlers;        ///< of elastic rods
+extern const Handlers serial_handlers;     ///< of stacks of arcs, whose tendons' lengths give their shape
+extern const Handlers arm_handlers;        ///< of arms that bear loads
+extern const Handlers arm_legs_handlers;   ///< of platforms on arms
+
+void describe_platform(Context& context);  ///< of robots with a platform on arcs, rails, chains or rods
 
 }  // namespace sinew::inline v1

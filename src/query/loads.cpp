@@ -4,11 +4,15 @@
 
 namespace sinew::inline v1 {
 
-Wants read_wants_of_loads(Context& context, Wants usual) {
-  const Wants wants = read_wants(context, usual, equilibrium_wants);
-  if (const auto of = context.query.optional("with_respect_to"))
-    of->fail("not_available", "sensitivity is by the inputs in this version; leave this out");
+Wants read_wants_of_loads(Question& question) {
+  const Wants wants = read_wants(question);
+  refuse_other_sensitivity(question);
   return wants;
+}
+
+void refuse_other_sensitivity(Question& question) {
+  if (const auto of = question.query.optional("with_respect_to"))
+    of->fail("not_available", "sensitivity is by the inputs in this version; leave this out");
 }
 
 std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range,
@@ -20,16 +24,16 @@ std::vector<double> read_forces(const Reader& given, std::size_t count, const Ra
   return forces;
 }
 
-bool read_all(Context& context) {
-  const auto all = context.query.optional("all");
+bool read_all(Question& question) {
+  const auto all = question.query.optional("all");
   return all && all->boolean();
 }
 
-void put_solutions(Context& context, Value solutions) {
-  if (Report stopped; note_stop(context.work.stop, stopped)) context.report(stopped);
-  context.answer["count"] = solutions.size();
-  context.answer["complete"] = false;
-  context.answer["solutions"] = std::move(solutions);
+void put_solutions(Question& question, StopToken stop, Value solutions) {
+  if (Report stopped; note_stop(stop, stopped)) question.report(stopped);
+  question.answer["count"] = solutions.size();
+  question.answer["complete"] = false;
+  question.answer["solutions"] = std::move(solutions);
 }
 
 }  // namespace sinew::inline v1

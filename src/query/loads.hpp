@@ -9,7 +9,9 @@ namespace sinew::inline v1 {
 /// What an equilibrium can tell.
 constexpr Wants equilibrium_wants = usual_wants | Wants{Want::velocity,  Want::shape,   Want::stiffness,
                                                         Want::stability, Want::margins, Want::sensitivity};
-Wants read_wants_of_loads(Context& context, Wants usual = usual_wants);
+Wants read_wants_of_loads(Question& question);
+/// Says that sensitivity is by the inputs.
+void refuse_other_sensitivity(Question& question);
 
 /// Forces, then moments.
 template <class Space>
@@ -30,7 +32,7 @@ struct Until {
   double limit = 0;
 };
 template <class Space>
-std::optional<Until<Space>> read_until(Context& context) {
+std::optional<Until<Space>> read_until(Question& context) {
   auto asked = context.query.optional("until");
   if (!asked) return {};
   const Reader wrench = asked->required("wrench", "the load that is added");
@@ -43,11 +45,20 @@ std::optional<Until<Space>> read_until(Context& context) {
   return until;
 }
 
+/// How far a load grew, and why no further.
+template <class Path>
+void put_growth(Value& answer, const Path& path) {
+  answer["load"] = path.load;
+  answer["why"] = to_string(path.end);
+  if constexpr (requires { path.definite_until; })
+    if (path.definite_until >= 0) answer["definite_until"] = path.definite_until;
+}
+
 /// One number for all, or one each.
 std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range, bool one_for_all);
 
-bool read_all(Context& context);
+bool read_all(Question& question);
 /// `solutions` that were found by many starts, without proof.
-void put_solutions(Context& context, Value solutions);
+void put_solutions(Question& question, StopToken stop, Value solutions);
 
 }  // namespace sinew::inline v1

@@ -8,6 +8,8 @@
 
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
+#include "query/batch/row_places.hpp"
+#include "query/batch/sampler.hpp"
 #include "query/fields/fields.hpp"
 #include "query/handlers.hpp"
 #include "query/tree_session.hpp"
@@ -18,73 +20,54 @@
 namespace sinew::inline v1 {
 namespace {
 
-using Handler = void (*)(Context&);
+const Handlers& handlers_of(const Robot& robot) {
+  if (robot.serial()) return serial_handlers;
+  if (robot.arm()) return arm_handlers;
+  if (robot.arm_legs()) return arm_legs_handlers;
+  if (has_rods(robot)) return rod_handlers;
+  return robot.model() == Model::prb ? chain_handlers : kinematic_handlers;
+}
 
-/// Who answers a kind of question; null: nobody does in this version.
-struct Kind {
-  Handler of_kinematic, of_chains, of_rods, of_serial, of_arms, of_arm_legs = nullptr;
+bool has_platform_on_legs(const Robot& robot) { return !robot.serial() && !robot.arm() && !robot.arm_legs(); }
 
-  Handler handler(const Robot& robot) const {
-    if (robot.serial()) return of_serial;
-    if (robot.arm()) return of_arms;
-    if (robot.arm_legs()) return of_arm_legs;
-    if (has_rods(robot)) return of_rods;
-    return robot.model() == Model::prb ? of_chains : of_kinematic;
+/// By some model.
+bool is_of_platforms(Ask ask) {
+  return kinematic_handlers.of(ask) || chain_handlers.of(ask) || rod_handlers.of(ask);
+}
+/// Whether it is of what bears loads alone.
+bool is_of_loads(Ask ask) { return chain_handlers.of(ask) && !kinematic_handlers.of(ask); }
+/// Whether it is to an arm as a serial robot: lengths of tendons give its shape.
+bool is_of_lengths(Ask ask, const Robot& robot, std::string_view model) {
+  return robot.arm() && (!arm_handlers.of(ask) || model == "pcc" || model == "lsk");
+}
+
+std::string_view word_of(Ask ask) { return question_kinds()[static_cast<std::size_t>(ask)]; }
+
+/// Why a robot has no answer to any question of a kind; nothing where it has.
+std::optional<std::string> lack_of(Ask ask, const Robot& robot, std::string_view model) {
+  if (is_of_lengths(ask, robot, model)) {
+    if (serial_handlers.of(ask)) return {};
+    return fmt::format(
+        "{} is not available by the models pcc and lsk, of which tendons' lengths give the shape; leave "
+        "model "
+        "out, or give another one",
+        word_of(ask));
   }
-  bool is_of_loads() const { return of_chains && !of_kinematic; }
-  bool is_of_platforms() const { return of_chains || of_kinematic || of_rods; }
-  /// Whether it is to an arm as a serial robot: lengths of tendons give its shape.
-  bool is_of_lengths(const Robot& robot, std::string_view model) const {
-    return robot.arm() && (!of_arms || model == "pcc" || model == "lsk");
-  }
-};
-
-/// In the order of `question_kinds`, which names them.
-constexpr std::array kinds{
-    Kind{answer_kinematic_forward, answer_chains_forward, answer_rods_forward, answer_serial_forward,
-         answer_arms_forward, answer_arm_legs_forward},
-    Kind{answer_kinematic_inverse, answer_chains_inverse, answer_rods_inverse, answer_serial_inverse,
-         answer_arms_inverse},
-    Kind{answer_kinematic_velocity, answer_chains_velocity, answer_rods_velocity, answer_serial_velocity,
-         answer_arms_velocity, answer_arm_legs_velocity},
-    Kind{answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape,
-         answer_arms_shape, answer_arm_legs_shape},
-    Kind{nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
-    Kind{answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, answer_arms_track},
-    Kind{nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
-    Kind{nullptr, nullptr, nullptr, nullptr, answer_arms_identify},
-    Kind{answer_describe, answer_describe, answer_describe, answer_serial_describe, answer_arm_describe,
-         answer_arm_legs_describe},
-};
-
-std::string_view word_of(const Kind& kind) {
-  return question_kinds()[static_cast<std::size_t>(&kind - kinds.data())];
+  const bool is_platform = has_platform_on_legs(robot);
+  if (is_platform ? is_of_platforms(ask) : handlers_of(robot).of(ask) != nullptr) return {};
+  if (!serial_handlers.of(ask) && !is_of_platforms(ask))
+    return fmt::format("{} is a question to arms that bear loads", word_of(ask));
+  if (is_platform) return fmt::format("{} is a question to serial robots", word_of(ask));
+  return fmt::format("{} is not available of {} in this version", word_of(ask), handlers_of(robot).robots);
 }
 
 /// @param model the word of it, as it is asked
-const Kind& read_kind(Reader& query, const Robot& robot, std::string_view model) {
+Ask read_ask(Reader& query, const Robot& robot, std::string_view model) {
   static const std::string meaning = fmt::format("what is asked: {}", fmt::join(question_kinds(), ", "));
   const Reader word = query.required("query", meaning);
-  const Kind& kind = kinds[std::min(word.choice_index(question_kinds()), kinds.size() - 1)];
-  const bool is_serial = robot.serial() != nullptr;
-  const bool is_of_lengths = kind.is_of_lengths(robot, model);
-  if (is_of_lengths && !kind.of_serial)
-    word.fail("not_available",
-              fmt::format("{} is not available by the models pcc and lsk, of which tendons' lengths give the "
-                          "shape; leave model out, or give another one",
-                          word_of(kind)));
-  else if (is_of_lengths)
-    return kind;
-  if (is_serial || robot.arm() || robot.arm_legs() ? !kind.handler(robot) : !kind.is_of_platforms())
-    word.fail("not_available",
-              !kind.of_serial && !kind.is_of_platforms()
-                  ? fmt::format("{} is a question to arms that bear loads", word_of(kind))
-              : is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
-              : robot.arm_legs()
-                  ? fmt::format("{} is not available of legs of sections in this version", word_of(kind))
-              : robot.arm() ? fmt::format("{} is not available of arms in this version", word_of(kind))
-                            : fmt::format("{} is a question to serial robots", word_of(kind)));
-  return kind;
+  const auto ask = static_cast<Ask>(word.choice_index(question_kinds()));
+  if (const auto lack = lack_of(ask, robot, model)) word.fail("not_available", *lack);
+  return ask;
 }
 
 /// The query's id, which every answer repeats.
@@ -112,9 +95,8 @@ struct ModelQuery {
   Model model;
   PrbDiscretisation discretisation = PrbDiscretisation::weighted;
 };
-ModelQuery read_model(Reader& query, const std::optional<Reader>& word, const Robot& robot,
-                      const Kind& kind) {
-  const bool needs_load = kind.is_of_loads() && !bears_load(robot);
+ModelQuery read_model(Reader& query, const std::optional<Reader>& word, const Robot& robot, Ask ask) {
+  const bool needs_load = is_of_loads(ask) && !bears_load(robot);
   ModelQuery asked{needs_load ? Model::prb : robot.model()};
   if (word) {
     asked.model = word->choice_of<Model>(
@@ -159,12 +141,12 @@ Value error_answer(const Value& id, const Errors& errors) {
 }
 
 /// Errors that are all `not_available` become the status `unsupported`; with any other they are an error.
-Value refusal(const Value& id, const Kind& kind, const Robot& robot, const Errors& errors) {
+Value refusal(const Value& id, Ask ask, const Robot& robot, const Errors& errors) {
   const auto is_lacking = [](const Error& error) { return error.code == "not_available"; };
   if (!std::ranges::all_of(errors, is_lacking)) return error_answer(id, errors);
   Value answer = Value::map();
   if (!id.is_null()) answer["id"] = id;
-  answer["query"] = word_of(kind);
+  answer["query"] = word_of(ask);
   answer["robot"] = robot.name();
   answer["status"] = to_string(Status::unsupported);
   answer["message"] = message_of(errors);
@@ -225,6 +207,7 @@ struct TreeSession::State {
 struct Session::State {
   TreeSession session;
   std::optional<AnyPose> last = {};
+  std::string text = {};  ///< of the answer last written: its memory serves the next
 };
 
 namespace {
@@ -238,8 +221,7 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
       found = true;
     }
   };
-  if (!opened.robot.serial() && !opened.robot.arm() && !opened.robot.arm_legs())
-    opened = Opened(with_changed_legs(opened.robot, choose));
+  if (has_platform_on_legs(opened.robot)) opened = Opened(with_changed_legs(opened.robot, choose));
   if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
 }
 
@@ -252,13 +234,11 @@ bool read_tilt(Reader& query, const Opened& opened) {
   return is_wanted;
 }
 
-void refuse_loads(Reader& query, const Node& root) {
-  for (const char* load : {"wrench", "gravity", "until"})
-    if (const auto asked = root.find(load) ? query.optional(load) : std::nullopt)
-      asked->fail(
-          "not_available",
-          "a serial robot by pcc or lsk bears no load: it takes the shape that the lengths of its tendons "
-          "give; leave it out");
+/// What these robots lack of what others have. Only what is asked for becomes a field of the question.
+void refuse_lacking(Reader& query, const Handlers& handlers) {
+  for (const auto& [field, why] : handlers.lacks)
+    if (query.node()->find(field))
+      if (const auto given = query.optional(field)) given->fail("not_available", why);
 }
 
 /// Whether two nodes say the same, wherever they stand.
@@ -327,48 +307,76 @@ Errors TreeSession::errors_of(const Document& query) {
   return errors;
 }
 
+/// A question as far as it is read alike whatever it is put to.
+struct TreeSession::Begun {
+  Value id;
+  Ask ask = Ask::forward;
+  Opened* opened = nullptr;  ///< what it is put to; null where it is refused
+  std::optional<int> max_iterations;
+  bool wants_tilt = false;
+  Value refused;  ///< the answer then
+
+  const Handlers& handlers() const { return handlers_of(opened->robot); }
+};
+
+TreeSession::Begun TreeSession::begin(const Document& document, Reader& query, Errors& errors) {
+  Begun begun{.id = read_id(query), .max_iterations = {}, .refused = {}};
+  const Robot& own = state_->opened.robot;
+  const bool has_platform = has_platform_on_legs(own);
+  const Node* word = document.root.find("model");
+  const std::string_view asked_model = word ? std::string_view(word->text) : std::string_view();
+  const auto refused = [&](const Robot& robot) -> Begun& {
+    begun.opened = nullptr;
+    begun.refused = refusal(begun.id, begun.ask, robot, errors);
+    return begun;
+  };
+  begun.ask = read_ask(query, own, asked_model);
+  if (!errors.empty()) return refused(own);
+  const auto model = has_platform ? query.optional("model") : std::nullopt;  // else the handler's
+  Opened* opened = state_->altered(query, errors);
+  if (!errors.empty()) {
+    begun.refused = error_answer(begun.id, errors);
+    return begun;
+  }
+  if (!opened) opened = &state_->opened;
+  const Robot& asked = opened->robot;
+  if (has_platform) opened = opened->by(read_model(query, model, asked, begun.ask), errors);
+  if (is_of_lengths(begun.ask, asked, asked_model)) opened = opened->by({Model::cc}, errors);
+  if (asked.arm() && begun.ask == Ask::describe) read_arm_word(query);
+  if (!errors.empty()) return refused(asked);
+  begun.opened = opened;
+  if (const auto limit = query.optional("max_iterations"))
+    begun.max_iterations = limit->integer(Range::between(0, 100000));
+  begun.wants_tilt = read_tilt(query, *opened);
+  refuse_lacking(query, begun.handlers());
+  opened->work.stop = state_->stop;
+  return begun;
+}
+
 /// @param is_only_read the answer stays empty; @param errors all that reading the question finds
 Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, Continues continues,
                        bool is_only_read, Errors& errors) {
   Reader query(document, errors);
-  const Value id = read_id(query);
-  const bool has_platform =
-      !state_->opened.robot.serial() && !state_->opened.robot.arm() && !state_->opened.robot.arm_legs();
-  const Node* word = document.root.find("model");
-  const std::string_view asked_model = word ? std::string_view(word->text) : std::string_view();
-  const Kind& kind = read_kind(query, state_->opened.robot, asked_model);
-  if (!errors.empty()) return refusal(id, kind, state_->opened.robot, errors);
-  const auto model = has_platform ? query.optional("model") : std::nullopt;  // else the handler's
-  Opened* opened = state_->altered(query, errors);
-  if (!errors.empty()) return error_answer(id, errors);
-  if (!opened) opened = &state_->opened;
-  const Robot& asked = opened->robot;
-  if (has_platform) opened = opened->by(read_model(query, model, asked, kind), errors);
-  if (kind.is_of_lengths(asked, asked_model)) opened = opened->by({Model::cc}, errors);
-  if (asked.arm() && kind.of_serial == answer_serial_describe) read_arm_word(query);
-  if (!errors.empty()) return refusal(id, kind, asked, errors);
-  const bool is_serial = opened->robot.serial() != nullptr;
+  Begun begun = begin(document, query, errors);
+  if (!begun.opened) return std::move(begun.refused);
+  const Robot& robot = begun.opened->robot;
 
   Value answer = Value::map();
-  if (!id.is_null()) answer["id"] = id;
-  answer["query"] = word_of(kind);
-  answer["robot"] = opened->robot.name();
-  Question question{query, errors, answer, {}, last, continues};
+  if (!begun.id.is_null()) answer["id"] = begun.id;
+  answer["query"] = word_of(begun.ask);
+  answer["robot"] = robot.name();
+  Question question{query, errors,   answer, begun.handlers(), begun.ask, begun.max_iterations,
+                    last,  continues};
   question.is_only_read = is_only_read;
-  if (const auto limit = query.optional("max_iterations"))
-    question.max_iterations = limit->integer(Range::between(0, 100000));
-  const bool wants_tilt = read_tilt(query, *opened);
-  opened->work.stop = state_->stop;
-  if (is_serial) refuse_loads(query, document.root);
-  Context context{question, opened->robot, opened->work};
-  kind.handler(opened->robot)(context);
-  if (!errors.empty()) return refusal(id, kind, opened->robot, errors);
+  Context context{question, robot, begun.opened->work};
+  begun.handlers().of(begun.ask)(context);
+  if (!errors.empty()) return refusal(begun.id, begun.ask, robot, errors);
   if (is_only_read) return answer;
-  if (wants_tilt) add_tilt(answer);
-  if (is_serial && answer.text_at("status") == "slack" && !has_key(*state_->document, "tolerance"))
+  if (begun.wants_tilt) add_tilt(answer);
+  if (robot.serial() && answer.text_at("status") == "slack" && !has_key(*state_->document, "tolerance"))
     answer["message"] =
         fmt::format("{}; the file gives no tolerance of its tendons: {} counts", answer.text_at("message"),
-                    human(opened->robot.serial()->tolerance, Dimension::length));
+                    human(robot.serial()->tolerance, Dimension::length));
   const Opened& own = state_->opened;  // the robot as its file has it
   const std::string hint = unit_hint(document.root, answer, own.scale, state_->document->root, own.inputs);
   if (!hint.empty()) {
@@ -377,6 +385,17 @@ Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, C
     answer["message"] = said.empty() ? hint : said + ". " + hint;
   }
   return answer;
+}
+
+SamplerKind TreeSession::plan(const RowPlaces& rows) {
+  Errors errors;
+  Reader query(rows.trial(), errors);
+  const Begun begun = begin(rows.trial(), query, errors);
+  if (!begun.opened || begun.wants_tilt || !begun.handlers().plan) return {};
+  Value answer;
+  Question question{query, errors, answer, begun.handlers(), begun.ask, begun.max_iterations};
+  Context context{question, begun.opened->robot, begun.opened->work};
+  return begun.handlers().plan(context, rows);
 }
 
 void TreeSession::stop_on(StopToken stop) { state_->stop = stop; }
@@ -401,7 +420,9 @@ std::string Session::answer(std::string_view text) {
   const auto document = parse_json(text, "query");
   const Value answer = document ? state_->session.answer(*document, &state_->last, Continues::where_asked)
                                 : error_answer({}, document.error());
-  return answer.json();
+  state_->text.clear();
+  answer.append_json(state_->text);
+  return state_->text;
 }
 
 Document Session::answer(const Document& query) {

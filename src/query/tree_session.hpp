@@ -8,6 +8,9 @@
 
 namespace sinew::inline v1 {
 
+class RowPlaces;
+struct SamplerKind;
+
 /// As Session. Not for two threads at once: open one a thread.
 class SINEW_API TreeSession {
  public:
@@ -23,6 +26,9 @@ class SINEW_API TreeSession {
   /// Of a question whose answer would be `unsupported` all have the code `not_available`.
   Errors errors_of(const Document& query);
 
+  /// What computes the rows of a question without asking each; empty `make` where there is nothing quicker.
+  SamplerKind plan(const RowPlaces& rows);
+
   /// As Session's.
   void stop_on(StopToken stop);
 
@@ -32,7 +38,9 @@ class SINEW_API TreeSession {
 
  private:
   struct State;
+  struct Begun;
   explicit TreeSession(std::unique_ptr<State> state);
+  Begun begin(const Document& query, Reader& reader, Errors& errors);
   Value put(const Document& query, std::optional<AnyPose>* last, Continues continues, bool is_only_read,
             Errors& errors);
 

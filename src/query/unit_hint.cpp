@@ -19,6 +19,25 @@ namespace {
 constexpr double far_length = 10, far_change = 0.5, far_force = 1000, far_setting = 200;
 constexpr double far_angle = 2 * std::numbers::pi;  ///< [rad]
 
+/// A place of a query, written out only where something is said of it.
+class Place {
+ public:
+  explicit Place(std::string_view key) : key_(key) {}
+  Place(const Place& in, std::string_view key) : in_(&in), key_(key) {}
+  Place(const Place& in, std::size_t index) : in_(&in), index_(index), is_index_(true) {}
+
+  std::string text() const {
+    const std::string before = in_ ? in_->text() : std::string();
+    return is_index_ ? joined(before, index_) : joined(before, key_);
+  }
+
+ private:
+  const Place* in_ = nullptr;
+  std::string_view key_;
+  std::size_t index_ = 0;
+  bool is_index_ = false;
+};
+
 class Search {
  public:
   Search(const RobotScale& scale, std::span<const InputOfLeg> inputs) : scale_(scale), inputs_(inputs) {}
@@ -28,27 +47,25 @@ class Search {
   void settings(const Node& query, const Node& robot);
 
  private:
-  void length(const std::string& path, const Node& node, double most) {
+  void length(const Place& path, const Node& node, double most) {
     value(path, node, Dimension::length, most * scale_.length, scale_.length, "the robot's size");
   }
-  void angle(const std::string& path, const Node& node) {
-    value(path, node, Dimension::angle, far_angle, 0, "");
-  }
-  void force(const std::string& path, const Node& node, Dimension dimension, double unit) {
+  void angle(const Place& path, const Node& node) { value(path, node, Dimension::angle, far_angle, 0, ""); }
+  void force(const Place& path, const Node& node, Dimension dimension, double unit) {
     value(path, node, dimension, far_force * scale_.force * unit, scale_.force * unit,
           "what bends the robot's links far");
   }
-  void value(const std::string& path, const Node& node, Dimension dimension, double most, double measure,
+  void value(const Place& path, const Node& node, Dimension dimension, double most, double measure,
              std::string_view of);
   template <class Each>
-  void each(const std::string& path, const Node& node, const Each& visit);
-  void pose(const std::string& path, const Node& node);
-  void inputs(const std::string& path, const Node& list);
-  void wrench(const std::string& path, const Node& list);
-  void configuration(const std::string& path, const Node& list);
-  void field(const Field& field, const std::string& path, const Node& node);
-  void numbers(const Field& field, const std::string& path, const Node& node);
-  void twist(const std::string& path, const Node& list);
+  void each(const Place& path, const Node& node, const Each& visit);
+  void pose(const Place& path, const Node& node);
+  void inputs(const Place& path, const Node& list);
+  void wrench(const Place& path, const Node& list);
+  void configuration(const Place& path, const Node& list);
+  void field(const Field& field, const Place& path, const Node& node);
+  void numbers(const Field& field, const Place& path, const Node& node);
+  void twist(const Place& path, const Node& list);
 
   RobotScale scale_;
   std::span<const InputOfLeg> inputs_;
@@ -71,8 +88,8 @@ std::string_view small_unit(Dimension dimension) {
 
 /// @param most beyond it the value is far outside; none is where it is 0
 /// @param measure of the robot, which the message compares with
-void Search::value(const std::string& path, const Node& node, Dimension dimension, double most,
-                   double measure, std::string_view of) {
+void Search::value(const Place& path, const Node& node, Dimension dimension, double most, double measure,
+                   std::string_view of) {
   double si = node.number;
   const bool is_bare = node.kind == Node::Kind::number;
   if (node.kind == Node::Kind::string)
@@ -84,7 +101,7 @@ void Search::value(const std::string& path, const Node& node, Dimension dimensio
       dimension == Dimension::angle
           ? fmt::format("{:.3g} turns", std::abs(si) / far_angle)
           : fmt::format("{:.4g} times {} ({})", std::abs(si) / measure, of, human(measure, dimension));
-  found_ = fmt::format("{} is {:.6g} {}, {}", path, si, unit(dimension), size);
+  found_ = fmt::format("{} is {:.6g} {}, {}", path.text(), si, unit(dimension), size);
   if (is_bare)
     found_ += fmt::format("; did you mean \"{} {}\"?", node.text.empty() ? si_text(si) : node.text,
                           small_unit(dimension));
@@ -92,17 +109,17 @@ void Search::value(const std::string& path, const Node& node, Dimension dimensio
 
 /// Of a list, in lists or not, each value with its path.
 template <class Each>
-void Search::each(const std::string& path, const Node& node, const Each& visit) {
+void Search::each(const Place& path, const Node& node, const Each& visit) {
   if (node.kind != Node::Kind::list) return visit(path, node);
   for (std::size_t i = 0; i < node.items.size() && found_.empty(); ++i)
-    each(joined(path, i), node.items[i], visit);
+    each(Place(path, i), node.items[i], visit);
 }
 
-void Search::pose(const std::string& path, const Node& node) {
+void Search::pose(const Place& path, const Node& node) {
   for (const Member& member : node.members) {
-    const std::string here = joined(path, member.key);
+    const Place here(path, member.key);
     if (member.key == "position")
-      each(here, member.value, [&](const std::string& at, const Node& one) { length(at, one, far_length); });
+      each(here, member.value, [&](const Place& at, const Node& one) { length(at, one, far_length); });
     else if (member.key == "x" || member.key == "y" || member.key == "z")
       length(here, member.value, far_length);
     else if (member.key == "phi" || member.key == "tilt" || member.key == "azimuth" ||
@@ -111,43 +128,43 @@ void Search::pose(const std::string& path, const Node& node) {
   }
 }
 
-void Search::inputs(const std::string& path, const Node& list) {
+void Search::inputs(const Place& path, const Node& list) {
   for (std::size_t k = 0; k < std::min(list.items.size(), inputs_.size()); ++k) {
     if (inputs_[k].kind.dimension == Dimension::angle)
-      angle(joined(path, k), list.items[k]);
+      angle(Place(path, k), list.items[k]);
     else
-      length(joined(path, k), list.items[k], far_length);
+      length(Place(path, k), list.items[k], far_length);
   }
 }
 
-void Search::wrench(const std::string& path, const Node& list) {
+void Search::wrench(const Place& path, const Node& list) {
   const std::size_t forces = list.items.size() == 3 ? 2 : 3;
   for (std::size_t k = 0; k < list.items.size(); ++k) {
     if (k < forces)
-      force(joined(path, k), list.items[k], Dimension::force, 1);
+      force(Place(path, k), list.items[k], Dimension::force, 1);
     else
-      force(joined(path, k), list.items[k], Dimension::moment, scale_.length);
+      force(Place(path, k), list.items[k], Dimension::moment, scale_.length);
   }
 }
 
-void Search::configuration(const std::string& path, const Node& list) {
+void Search::configuration(const Place& path, const Node& list) {
   for (std::size_t m = 0; m < list.items.size(); ++m)
     for (std::size_t k = 0; k < list.items[m].items.size(); ++k) {
       const Node& value_of = list.items[m].items[k];
       if (k < 2)
-        angle(joined(joined(path, m), k), value_of);
+        angle(Place(Place(path, m), k), value_of);
       else
-        length(joined(joined(path, m), k), value_of, far_change);
+        length(Place(Place(path, m), k), value_of, far_change);
     }
 }
 
 void Search::query(const Node& query) {
   for (const Member& member : query.members)
-    if (const Field* known = find_field(member.key)) field(*known, member.key, member.value);
+    if (const Field* known = find_field(member.key)) field(*known, Place(member.key), member.value);
 }
 
 /// By the shape of the field.
-void Search::field(const Field& field, const std::string& path, const Node& node) {
+void Search::field(const Field& field, const Place& path, const Node& node) {
   using Shape = FieldShape;
   switch (field.shape) {
     case Shape::inputs:
@@ -169,25 +186,25 @@ void Search::field(const Field& field, const std::string& path, const Node& node
       pose(path, node);
       break;
     case Shape::places:
-      for (std::size_t k = 0; k < node.items.size(); ++k) pose(joined(path, k), node.items[k]);
+      for (std::size_t k = 0; k < node.items.size(); ++k) pose(Place(path, k), node.items[k]);
       break;
     case Shape::path_points:
       for (std::size_t k = 0; k < node.items.size(); ++k)
         for (const Member& member : node.items[k].members)
           if (const Field* known = find_field(member.key); known && known->shape != Shape::path_points)
-            this->field(*known, joined(path, k) + "." + member.key, member.value);
+            this->field(*known, Place(Place(path, k), member.key), member.value);
       break;
     case Shape::target:
       pose(path, node);
-      if (const Node* target = node.find("pose")) pose(joined(path, "pose"), *target);
-      if (const Node* target = node.find("inputs")) inputs(joined(path, "inputs"), *target);
-      if (const Node* target = node.find("wrench")) wrench(joined(path, "wrench"), *target);
+      if (const Node* target = node.find("pose")) pose(Place(path, "pose"), *target);
+      if (const Node* target = node.find("inputs")) inputs(Place(path, "inputs"), *target);
+      if (const Node* target = node.find("wrench")) wrench(Place(path, "wrench"), *target);
       break;
     case Shape::wrench:
       wrench(path, node);
       break;
     case Shape::growing_load:
-      if (const Node* step = node.find("wrench")) wrench(joined(path, "wrench"), *step);
+      if (const Node* step = node.find("wrench")) wrench(Place(path, "wrench"), *step);
       break;
     case Shape::twist:
       if (field.name == "twist" && node.kind == Node::Kind::list) twist(path, node);
@@ -212,10 +229,10 @@ void Search::field(const Field& field, const std::string& path, const Node& node
 
 /// What has one dimension: lengths, and changes of tendons; forces, of which a tendon's has a short arm: it
 /// pulls more than it bends.
-void Search::numbers(const Field& field, const std::string& path, const Node& node) {
+void Search::numbers(const Field& field, const Place& path, const Node& node) {
   const bool is_change =
       field.shape != FieldShape::point && ((field.uses.diagram | field.uses.forward) & ~of_arms) == of_serial;
-  each(path, node, [&](const std::string& at, const Node& one) {
+  each(path, node, [&](const Place& at, const Node& one) {
     if (field.dimension == Dimension::length)
       length(at, one, is_change ? far_change : far_length);
     else if (field.dimension == Dimension::force)
@@ -224,12 +241,12 @@ void Search::numbers(const Field& field, const std::string& path, const Node& no
 }
 
 /// Velocities of the platform: of as much as its size a second.
-void Search::twist(const std::string& path, const Node& list) {
+void Search::twist(const Place& path, const Node& list) {
   const bool is_on_rods =
       std::ranges::any_of(inputs_, [](const InputOfLeg& input) { return input.kind.name == "length"; });
   const std::size_t shifts = list.items.size() != 3 ? 3 : is_on_rods ? 1 : 2;  // of three inputs vz, wx, wy
   for (std::size_t k = 0; k < std::min(shifts, list.items.size()); ++k)
-    length(joined(path, k), list.items[k], far_length);
+    length(Place(path, k), list.items[k], far_length);
 }
 
 /// A plain number in place of a length or an angle that is two hundred times smaller.
@@ -242,7 +259,7 @@ void Search::settings(const Node& query, const Node& robot) {
     if (!before) {  // of a file that says it for all legs, or by an architecture
       const std::string_view key = std::string_view(change.key).substr(change.key.rfind('.') + 1);
       if (key == "length" || key == "tendon_offset" || key == "diameter" || key == "radius" || key == "joint")
-        length(change.key, change.value, far_length);
+        length(Place(change.key), change.value, far_length);
       continue;
     }
     const auto old = before->kind == Node::Kind::string
@@ -266,7 +283,7 @@ std::string far_answer(const Value& answer, const RobotScale& scale) {
     if (!pose || !pose->members()) continue;
     double square = 0;
     if (const Value* position = pose->find("position"))
-      for (const double part : position->block()->numbers) square += part * part;
+      for (const double part : position->block()->numbers()) square += part * part;
     else if (pose->find("x"))
       for (const char* axis : {"x", "y"}) square += std::pow(pose->find(axis)->number().value_or(0), 2);
     const double distance = std::sqrt(square);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "query/fields/fields.hpp"
+#include "query/handlers.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -23,6 +24,10 @@ std::string names_of(Wants wants) {
 }
 
 }  // namespace
+
+Wants read_wants(Question& question) {
+  return read_wants(question, usual_of(question.ask), question.handlers.wants);
+}
 
 Wants read_wants(Question& question, Wants usual, Wants known) {
   const auto list = question.query.optional("want");

@@ -30,6 +30,7 @@ class Wants {
   constexpr Wants operator&(Wants only) const { return of(bits_ & only.bits_); }
   constexpr Wants operator-(Wants less) const { return of(bits_ & ~less.bits_); }
   constexpr bool is_empty() const { return bits_ == 0; }
+  constexpr bool operator==(const Wants&) const = default;
 
  private:
   static constexpr unsigned bit(Want want) { return 1U << static_cast<unsigned>(want); }
@@ -45,9 +46,17 @@ class Wants {
 /// What a query answers by its name alone.
 constexpr Wants usual_wants{Want::pose, Want::legs};
 
-/// `want`. Pose and legs are there unless the list names one of them: then those that it names.
-/// @param usual what is answered where nothing is named
-/// @param known what this kind of robot can tell; other words are refused
+/// What a question of a kind answers where it names nothing.
+constexpr Wants usual_of(Ask ask) {
+  if (ask == Ask::velocity) return usual_wants | Wants{Want::velocity};
+  if (ask == Ask::shape) return {Want::pose, Want::shape};
+  return usual_wants;
+}
+
+/// `want`: what is usual, and what the list names. Pose and legs are there unless it names one of them: then
+/// those that it names. Other words than the robot's mechanics can tell are refused.
+Wants read_wants(Question& question);
+/// The same of a question that differs from others to these robots.
 Wants read_wants(Question& question, Wants usual, Wants known);
 
 /// Says of fields that go with a word which is not wanted that they have no effect.

@@ -398,6 +398,25 @@ TEST(Batch, ArmsHeldByTensionsAndChangesAreAsAsked) {
   }
 }
 
+TEST(Batch, ArmsTakeAllLoadsOfASingleQuestion) {
+  const Batch batch =
+      prepared("two-segment",
+               R"({"query":"forward","tensions":[["$a",0.5,0],[0.2,0,0]],"model":"cc","gravity":[0,-9.81,0],
+                   "following":[0.01,0,0,0,0,0],"loads":[{"place":0.1,"wrench":[0,0.02,0,0,0,0]}],
+                   "wrench":[0,0,"$f",0,0,0],"max_iterations":200,"outputs":{"p":"tip.position"}})")
+          .value();
+  EXPECT_EQ(batch.method(), "arms row by row");
+  const std::vector<double> numbers{1, -0.01, 0.7, 0.02, 1.2, 0};
+  const Rows found = run(batch, numbers);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Json answer = Json::parse(batch.answer(std::span(numbers).subspan(2 * k, 2)));
+    EXPECT_EQ(to_string(static_cast<Status>(found.statuses[k])), answer["status"]) << answer;
+    const std::vector<double> expected = flat(answer.at(pointer("tip.position")));
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(found.outputs[3 * k + i], expected[i], 1e-9) << k << ' ' << i;
+  }
+}
+
 /// On a path rows begin where the one before ended: the same equilibria as far as they are resolved, and
 /// after a row that is refused from the straight arm again.
 TEST(Batch, ArmsOnAPathAreWhereTheyAreAnew) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
@@ -53,6 +54,40 @@ TEST(Value, NumbersAreTheShortestThatReadBack) {
   }
   EXPECT_EQ(Value(Limits::quiet_NaN()).json(), "null");
   EXPECT_EQ(Value(Limits::infinity()).json(), "null");
+}
+
+TEST(Value, BlocksOfFewAndOfManyNumbersGrowAndAreCopied) {
+  Value grown({1.0});
+  std::string text = "[1.0";
+  for (int k = 2; k <= 9; ++k) {  // few lie in the block, more elsewhere
+    const Value before = grown;
+    Value moved = grown;
+    grown.push_back(k);
+    EXPECT_EQ(before.json(), text + "]");
+    text += fmt::format(",{}.0", k);
+    EXPECT_EQ(grown.json(), text + "]");
+    moved = std::move(grown);
+    grown = moved;
+    EXPECT_EQ(grown.json(), moved.json());
+  }
+  grown.push_front(0.5);
+  EXPECT_EQ(grown.json(), "[0.5" + ("," + text.substr(1)) + "]");
+  const std::array<double, 6> rows{1, 2, 3, 4, 5, 6};
+  EXPECT_EQ(Value(rows, 3).json(), "[[1.0,2.0,3.0],[4.0,5.0,6.0]]");
+  EXPECT_EQ(Value(std::span(rows).first(4), 2).block()->row(1)[0], 3);
+}
+
+TEST(Value, AnAnswerIsWrittenBehindWhatATextHolds) {
+  Value answer{{"a", "text \n"}, {"b", {1.0, 2.5}}, {"c", true}, {"d", Value::list()}, {"e", Value::map()}};
+  answer["f"] = 7;
+  answer["g"] = std::string(5000, 'x');
+  std::string text = "before ";
+  answer.append_json(text);
+  EXPECT_EQ(text, "before " + answer.json());
+  EXPECT_TRUE(
+      text.starts_with(R"(before {"a":"text \n","b":[1.0,2.5],"c":true,"d":[],"e":{},"f":7,"g":"xxxxx)"))
+      << text;
+  EXPECT_TRUE(text.ends_with("xxx\"}"));
 }
 
 }  // namespace value_test

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
 #include "kinematics/rods/path.hpp"
 #include "link/elastica_map.hpp"
+#include "link/galerkin.hpp"
 #include "rod_robots.hpp"
 
 namespace sinew::test {
@@ -62,6 +67,23 @@ TEST(RodStability, CountsTheUnstableDirectionsOfAllEquilibriaOfATip) {
   }
   EXPECT_GT(stable, 20);  // the samples were worth it
   EXPECT_GT(aside, 15);
+}
+
+template <std::size_t N>
+double least_bending() {
+  const auto& basis = GalerkinBasis<N>::get();
+  Eigen::Matrix<double, N, N> bending;
+  for (std::size_t j = 0; j < N; ++j)
+    for (std::size_t k = 0; k < N; ++k)
+      bending(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) =
+          basis.bending[j][k] / std::sqrt(basis.weight[j] * basis.weight[k]);
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>>(bending).eigenvalues()[0];
+}
+
+TEST(RodStability, ABasisIsNoSofterThanTheRod) {  // of which the count makes use
+  const double exact = std::numbers::pi * std::numbers::pi / 4;
+  EXPECT_NEAR(least_bending<coarse_nodes>(), exact, 1e-10);
+  EXPECT_NEAR(least_bending<fine_nodes>(), exact, 1e-10);
 }
 
 TEST(RodStability, CountsThemBeyondTheFirstInflection) {

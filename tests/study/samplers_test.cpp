@@ -131,6 +131,33 @@ TEST(Samplers, IndependentCoordinatesInLanesAgreeWithQueries) {  // some beyond 
             1e-13);
 }
 
+/// What a plan takes from the question that was read: a changed robot, angles for a quaternion; of what is
+/// wanted it leaves alone what it does not know.
+TEST(Samplers, PlansAreOfTheQuestionAsItIsRead) {
+  const std::string axes = "\naxes: {x: {from: -40 mm, to: 40 mm, count: 9}}\n";
+  EXPECT_LT(difference("sinew: 1\nrobot: 3-rfr\nquery: {query: inverse, set: {platform.radius: 40 mm}, "
+                       "model: cc, pose: {x: $x, y: 10 mm, phi: 5 deg}}" +
+                           axes,
+                       "poses in lanes"),
+            1e-13);
+  EXPECT_LT(difference("sinew: 1\nrobot: 6-ufs\nquery: {query: inverse, pose: {position: [$x, 0, 200 mm], "
+                       "tilt: 0.1, azimuth: 20 deg, torsion: -5 deg}}" +
+                           axes,
+                       "poses in lanes"),
+            1e-13);
+  EXPECT_LT(difference("sinew: 1\nrobot: 3pfs-g2\nquery: {query: forward, set: {platform.radius: 0.11}, "
+                       "inputs: [$x, 0.43, 430 mm]}\naxes: {x: {from: 0.4, to: 0.46, count: 9, unit: m}}\n",
+                       "rods in lanes"),
+            1e-9);
+  for (const char* more :
+       {"set: {platform.radius: $x}, pose: {x: 0, y: 0, phi: 0}", "pose: {x: $x, y: 0, phi: 0}, want: [pose]",
+        "pose: {x: $x, y: 0, phi: 0}, all: true", "pose: {x: $x, y: 0, phi: 0}, model: prb"})
+    difference(std::string("sinew: 1\nrobot: 3-rfr\nquery: {query: inverse, ") + more +
+                   "}\naxes: {x: {from: 42 mm, to: 50 mm, count: 3}}\n"
+                   "outputs: {residual: residual}\n",
+               "query by query");
+}
+
 TEST(Samplers, TendonsInLanesAgreeWithQueries) {
   for (const char* robot : {"nottingham-tpcj", "nottingham-neutral", "four-tendon-tpcj"})
     for (const char* model : {"pcc", "lsk"})  // some bends are beyond the limit

@@ -3,6 +3,7 @@
 /// messages. The tree knows nothing of robots; it is read through io/reader.hpp.
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -138,8 +139,9 @@ class NodeBuilder {
   /// closed.
   struct Level {
     Node* node;
-    bool has_key = false;                             // the last member's value is to come
-    std::unordered_map<std::string, int> lines = {};  // of the first `indexed` members, once there are many
+    bool has_key = false;  // the last member's value is to come
+    std::unique_ptr<std::unordered_map<std::string, int>> lines =
+        {};  // of the first `indexed`, of many members
     std::size_t indexed = 0;
 
     std::optional<int> line_of(std::string_view key);  // where the key was given before, if it was

@@ -131,6 +131,7 @@ class SINEW_API Reader {
   bool expect(Node::Kind kind, std::string_view advice) const;
   void expect_size(std::size_t size) const;
   void know(std::string_view key);
+  const Node* given(std::string_view key);  // null where it is not, or null
   void unsuitable(std::string_view advice) const;
   void unknown(const Member& member) const;
   std::string name(const Node& node, const std::string& path) const;

@@ -4,92 +4,233 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
+
+#include "base/same_name.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-constexpr std::size_t usual_members = 12;
+constexpr std::size_t usual_members = 12, usual_additions = 2, usual_items = 6;
+constexpr std::size_t usual_size = 1024;  ///< of the text of an answer
 
-template <class Whole>
-void append_whole(std::string& text, Whole value) {
-  const fmt::format_int digits(value);
-  text.append(digits.data(), digits.size());
+/// All eight digits of a number below 1e8, as they are written: of pairs, each pair by itself, at once.
+[[gnu::always_inline]] inline std::uint64_t eight_digits(std::uint32_t value) {
+  constexpr std::uint64_t zeros = 0x3030303030303030;
+  const std::uint64_t fours = value / 10000 | static_cast<std::uint64_t>(value % 10000) << 32;
+  const std::uint64_t hundreds =
+      (fours * 10486 >> 20) & 0x0000007f0000007f;  // 10486/2^20 is just above 1/100
+  const std::uint64_t pairs = hundreds | (fours - 100 * hundreds) << 16;
+  const std::uint64_t tens = (pairs * 103 >> 10) & 0x000f000f000f000f;  // 103/2^10 above 1/10
+  std::uint64_t digits = zeros | tens | (pairs - 10 * tens) << 8;       // the first of them lowest
+  if constexpr (std::endian::native == std::endian::big) {
+    std::uint64_t turned = 0;
+    for (; digits > 0; digits >>= 8) turned = turned << 8 | (digits & 0xff);
+    return turned;
+  }
+  return digits;
 }
 
+constexpr int most_digits = 17;  ///< of what reads back to the same double
+constexpr auto powers_of_ten = [] {
+  std::array<std::uint64_t, most_digits + 1> powers{1};
+  for (std::size_t k = 1; k < powers.size(); ++k) powers[k] = 10 * powers[k - 1];
+  return powers;
+}();
+
+/// @param value above 0 and below 1e17
+int count_digits(std::uint64_t value) {
+  const int about = static_cast<int>(std::bit_width(value)) * 1233 >> 12;  // log10 of 2 is 0.301
+  return about + (value >= powers_of_ten[static_cast<std::size_t>(about)] ? 1 : 0);
+}
+
+constexpr std::size_t room_of_number = 48;  ///< half of it for what is copied in one piece, past the end
+
 /// The shortest digits that read back to the same double, with a point: a reader tells it from a whole
-/// number. Exponents are written from 1e16 on and below 1e-4. As fmt writes {}, in half the time: answers are
-/// numbers for the most part.
-void append_number(std::string& text, double value) {
+/// number. Exponents are written from 1e16 on and below 1e-4. As fmt writes {}, in a third of the time:
+/// answers are numbers for the most part.
+/// @param to has room_of_number
+/// @return past the last of them
+char* write_number(char* to, double value) {
+  const auto put_text = [&](std::string_view text) {
+    std::memcpy(to, text.data(), text.size());
+    to += text.size();
+  };
   if (!std::isfinite(value)) {
-    text += "null";
-    return;
+    put_text("null");
+    return to;
   }
+  if (std::signbit(value)) *to++ = '-';
   if (value == 0) {
-    text += std::signbit(value) ? "-0.0" : "0.0";
-    return;
+    put_text("0.0");
+    return to;
   }
   const auto decimal = fmt::detail::dragonbox::to_decimal(std::abs(value));
-  const fmt::format_int significand(decimal.significand);
-  const char* digits = significand.data();
-  const int count = static_cast<int>(significand.size());
+  const int count = count_digits(decimal.significand);
   const int power = decimal.exponent + count - 1;  // of the first digit
-  std::array<char, 40> room;
-  char* to = room.data();
-  const auto put = [&](const char* from, int size) { to = std::copy_n(from, size, to); };
-  const auto put_zeros = [&](int size) { to = std::fill_n(to, size, '0'); };
-  if (value < 0) *to++ = '-';
+  // as many digits as there can be, zeros at the end: they are written in pieces of one size
+  const std::uint64_t all =
+      decimal.significand * powers_of_ten[static_cast<std::size_t>(most_digits - count)];
+  const auto upper = static_cast<std::uint32_t>(all / powers_of_ten[8]);
+  const std::uint32_t leading = upper / 100000000;
+  const char first = static_cast<char>('0' + leading);
+  const std::uint64_t high = eight_digits(upper - 100000000 * leading),
+                      low = eight_digits(static_cast<std::uint32_t>(all % powers_of_ten[8]));
+  const auto put_pieces = [&](char* at) {
+    std::memcpy(at, &high, sizeof high);
+    std::memcpy(at + sizeof high, &low, sizeof low);
+  };
+  const auto put_rest = [&](int used) {
+    put_pieces(to);
+    to += used;
+  };
   if (power < -4 || power >= 16) {
-    *to++ = digits[0];
+    *to++ = first;
     if (count > 1) *to++ = '.';
-    put(digits + 1, count - 1);
+    put_rest(count - 1);
     *to++ = 'e', *to++ = power < 0 ? '-' : '+';
     if (std::abs(power) < 10) *to++ = '0';
     const fmt::format_int exponent(std::abs(power));
-    put(exponent.data(), static_cast<int>(exponent.size()));
+    put_text({exponent.data(), exponent.size()});
   } else if (power < 0) {
-    *to++ = '0', *to++ = '.';
-    put_zeros(-power - 1);
-    put(digits, count);
+    std::memcpy(to, "0.000", 5);
+    to += 1 - power;
+    *to++ = first;
+    put_rest(count - 1);
+  } else if (power == 0) {
+    *to++ = first, *to++ = '.';
+    put_rest(std::max(count - 1, 1));
   } else {
-    const int before = std::min(power + 1, count);
-    put(digits, before);
-    put_zeros(power + 1 - before);
+    *to++ = first;
+    put_rest(power);
     *to++ = '.';
-    put(digits + before, count - before);
-    if (before == count) *to++ = '0';
+    std::array<char, 2 * most_digits> after{};
+    put_pieces(after.data());
+    std::memcpy(to, &after[static_cast<std::size_t>(power)], most_digits);
+    to += std::max(count - 1 - power, 1);
   }
-  text.append(room.data(), static_cast<std::size_t>(to - room.data()));
+  return to;
 }
 
-void append_text(std::string& text, std::string_view value) {
-  const auto is_plain = [](char c) { return c >= 0x20 && c < 0x7f && c != '"' && c != '\\'; };
-  if (std::ranges::all_of(value, is_plain)) {
-    text += '"';
-    text += value;
-    text += '"';
-  } else {
-    text += nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  }
-}
+/// JSON at the end of a text. Room is made for many characters at once, and what there is too much of it cut
+/// off at the end: answers are short pieces for the most part, which a text takes one by one.
+class JsonWriter {
+ public:
+  explicit JsonWriter(std::string& text) : text_(text), to_(text.data() + text.size()), end_(to_) {}
+  JsonWriter(const JsonWriter&) = delete;
+  JsonWriter& operator=(const JsonWriter&) = delete;
+  ~JsonWriter() { text_.resize(size()); }
 
-/// @param write(i) writes one of `count` parts
-template <class Write>
-void append_parts(std::string& text, char open, std::size_t count, char close, const Write& write) {
-  text += open;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0) text += ',';
-    write(i);
+  void put(std::string_view plain) {
+    make_room(plain.size());
+    put_in_room(plain);
   }
-  text += close;
-}
 
-void append_numbers(std::string& text, std::span<const double> numbers) {
-  append_parts(text, '[', numbers.size(), ']', [&](std::size_t i) { append_number(text, numbers[i]); });
-}
+  template <class Whole>
+  void whole(Whole value) {
+    const fmt::format_int digits(value);
+    put({digits.data(), digits.size()});
+  }
+
+  void number(double value) {
+    make_room(room_of_number);
+    to_ = write_number(to_, value);
+  }
+
+  void numbers(std::span<const double> values) {
+    make_room(2 + (1 + room_of_number) * values.size());
+    parts_in_room('[', values.size(), ']', [&](std::size_t i) { to_ = write_number(to_, values[i]); });
+  }
+
+  void text(std::string_view value) {
+    const auto is_plain = [](char c) { return c >= 0x20 && c < 0x7f && c != '"' && c != '\\'; };
+    if (!std::ranges::all_of(value, is_plain))
+      return put(nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    make_room(value.size() + 2);
+    *to_++ = '"';
+    put_in_room(value);
+    *to_++ = '"';
+  }
+
+  /// A name within a map, which is plain.
+  void name(std::string_view value) {
+    make_room(value.size() + 3);
+    *to_++ = '"';
+    put_in_room(value);
+    *to_++ = '"', *to_++ = ':';
+  }
+
+  /// @param write(i) writes one of `count` parts
+  template <class Write>
+  void parts(char open, std::size_t count, char close, const Write& write) {
+    make_room(2);
+    parts_in_room(open, count, close, [&](std::size_t i) {
+      write(i);
+      make_room(2);  // for what comes after it
+    });
+  }
+
+ private:
+  std::size_t size() const { return static_cast<std::size_t>(to_ - text_.data()); }
+
+  void make_room(std::size_t more) {
+    if (static_cast<std::size_t>(end_ - to_) < more) grow(more);
+  }
+  void grow(std::size_t more) {
+    const std::size_t used = size();
+    text_.resize(std::max({std::min(text_.capacity(), usual_size), 2 * text_.size(), used + more}));
+    to_ = text_.data() + used;
+    end_ = text_.data() + text_.size();
+  }
+
+  void put_in_room(std::string_view plain) {
+    std::memcpy(to_, plain.data(), plain.size());
+    to_ += plain.size();
+  }
+
+  template <class Write>
+  void parts_in_room(char open, std::size_t count, char close, const Write& write) {
+    *to_++ = open;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i > 0) *to_++ = ',';
+      write(i);
+    }
+    *to_++ = close;
+  }
+
+  std::string& text_;
+  char *to_, *end_;
+};
 
 }  // namespace
+
+Value::Block::Block(std::span<const double> numbers, std::size_t columns)
+    : count_(numbers.size()),
+      columns_(columns) {
+  if (count_ > few) is_.many = new double[count_];
+  std::ranges::copy(numbers, data());
+}
+
+Value::Block& Value::Block::operator=(const Block& other) {
+  if (this != &other) *this = Block(other);
+  return *this;
+}
+
+Value::Block& Value::Block::operator=(Block&& other) noexcept {
+  std::swap(is_, other.is_);
+  std::swap(count_, other.count_);
+  std::swap(columns_, other.columns_);
+  return *this;
+}
+
+void Value::Block::insert(std::size_t at, double number) {
+  std::vector<double> more(numbers().begin(), numbers().end());
+  more.insert(more.begin() + static_cast<std::ptrdiff_t>(at), number);
+  *this = Block(more, columns_);
+}
 
 // Not inline: they need what is in a map to be complete, which needs a value to be.
 Value::Value() = default;
@@ -107,9 +248,8 @@ Value::Value(Written value) : is_(std::move(value)) {}
 Value::Value(List value) : is_(std::move(value)) {}
 Value::Value(Block value) : is_(std::move(value)) {}
 Value::Value(std::span<const int> whole_numbers) : is_(List(whole_numbers.begin(), whole_numbers.end())) {}
-Value::Value(std::initializer_list<double> numbers) : is_(Block{numbers}) {}
-Value::Value(std::span<const double> numbers, std::size_t columns)
-    : is_(Block{{numbers.begin(), numbers.end()}, columns}) {}
+Value::Value(std::initializer_list<double> numbers) : is_(Block({numbers.begin(), numbers.size()})) {}
+Value::Value(std::span<const double> numbers, std::size_t columns) : is_(Block(numbers, columns)) {}
 
 Value Value::whole(std::int64_t value) {
   Value made;
@@ -136,11 +276,12 @@ Value Value::map() {
 }
 
 Value::Value(const MatrixView& matrix)
-    : is_(Block{{matrix.data(), matrix.data() + matrix.size()}, static_cast<std::size_t>(matrix.cols())}) {}
+    : is_(Block({matrix.data(), static_cast<std::size_t>(matrix.size())},
+                static_cast<std::size_t>(matrix.cols()))) {}
 
 Value::Value(std::initializer_list<Entry> entries) {
   Map& members = is_.emplace<Map>();
-  members.reserve(entries.size());
+  members.reserve(entries.size() + usual_additions);
   for (const Entry& entry : entries) members.push_back({entry.key.name(), std::move(entry.value)});
 }
 
@@ -168,7 +309,8 @@ Value& Value::operator[](Key key) {
 Value* Value::find(std::string_view name) {
   Map* members = std::get_if<Map>(&is_);
   if (!members) return nullptr;
-  const auto found = std::ranges::find(*members, name, &Member::name);
+  const auto found =
+      std::ranges::find_if(*members, [&](const Member& member) { return is_same_name(member.name, name); });
   return found == members->end() ? nullptr : &found->value;
 }
 
@@ -194,50 +336,54 @@ void Value::merge(Value&& other) {
 void Value::push_back(Value value) {
   if (is_null()) *this = list();
   if (Block* numbers = std::get_if<Block>(&is_))
-    numbers->numbers.push_back(value.number().value());
-  else
-    std::get<List>(is_).push_back(std::move(value));
+    return numbers->insert(numbers->numbers().size(), value.number().value());
+  List& list = std::get<List>(is_);
+  if (list.empty()) list.reserve(usual_items);
+  list.push_back(std::move(value));
 }
 
-void Value::push_front(double number) {
-  auto& numbers = std::get<Block>(is_).numbers;
-  numbers.insert(numbers.begin(), number);
-}
+void Value::push_front(double number) { std::get<Block>(is_).insert(0, number); }
 
 std::string Value::json() const {
   std::string text;
-  text.reserve(1024);
+  text.reserve(usual_size);
   append_json(text);
   return text;
 }
 
-void Value::append_json(std::string& text) const {
-  struct Append {
-    std::string& text;
+namespace {
 
-    void operator()(std::monostate) const { text += "null"; }
-    void operator()(bool value) const { text += value ? "true" : "false"; }
-    void operator()(std::int64_t value) const { append_whole(text, value); }
-    void operator()(double value) const { append_number(text, value); }
-    void operator()(const std::string& value) const { append_text(text, value); }
-    void operator()(const Written& value) const { text += value.text; }
-    void operator()(const Block& block) const {
-      if (block.columns == 0) return append_numbers(text, block.numbers);
-      append_parts(text, '[', block.size(), ']', [&](std::size_t i) { append_numbers(text, block.row(i)); });
-    }
-    void operator()(const List& list) const {
-      append_parts(text, '[', list.size(), ']', [&](std::size_t i) { list[i].append_json(text); });
-    }
-    void operator()(const Map& map) const {
-      append_parts(text, '{', map.size(), '}', [&](std::size_t i) {
-        text += '"';
-        text += map[i].name;
-        text += "\":";
-        map[i].value.append_json(text);
-      });
-    }
-  };
-  std::visit(Append{text}, is_);
+struct WriteJson {
+  JsonWriter& json;
+
+  void write(const Value& value) const { value.visit(*this); }
+
+  void operator()(std::monostate) const { json.put("null"); }
+  void operator()(bool value) const { json.put(value ? "true" : "false"); }
+  void operator()(std::int64_t value) const { json.whole(value); }
+  void operator()(double value) const { json.number(value); }
+  void operator()(const std::string& value) const { json.text(value); }
+  void operator()(const Value::Written& value) const { json.put(value.text); }
+  void operator()(const Value::Block& block) const {
+    if (block.columns() == 0) return json.numbers(block.numbers());
+    json.parts('[', block.size(), ']', [&](std::size_t i) { json.numbers(block.row(i)); });
+  }
+  void operator()(const Value::List& list) const {
+    json.parts('[', list.size(), ']', [&](std::size_t i) { write(list[i]); });
+  }
+  void operator()(const Value::Map& map) const {
+    json.parts('{', map.size(), '}', [&](std::size_t i) {
+      json.name(map[i].name);
+      write(map[i].value);
+    });
+  }
+};
+
+}  // namespace
+
+void Value::append_json(std::string& text) const {
+  JsonWriter json(text);
+  WriteJson{json}.write(*this);
 }
 
 namespace {
@@ -247,7 +393,8 @@ Node number_node(double value) {
   if (!std::isfinite(value)) return node;
   node.kind = Node::Kind::number;
   node.number = value;
-  append_number(node.text, value);
+  std::array<char, room_of_number> room;
+  node.text.assign(room.data(), write_number(room.data(), value));
   return node;
 }
 
@@ -273,7 +420,8 @@ Node Value::node() const {
     Node operator()(std::int64_t value) const {
       Node node = make_node(static_cast<double>(value));
       node.text.clear();
-      append_whole(node.text, value);
+      const fmt::format_int digits(value);
+      node.text.append(digits.data(), digits.size());
       return node;
     }
     Node operator()(double value) const { return number_node(value); }
@@ -284,7 +432,7 @@ Node Value::node() const {
       return node;
     }
     Node operator()(const Block& block) const {
-      if (block.columns == 0) return numbers_node(block.numbers);
+      if (block.columns() == 0) return numbers_node(block.numbers());
       return list_node(block.size(), [&](std::size_t i) { return numbers_node(block.row(i)); });
     }
     Node operator()(const List& list) const {

@@ -2,6 +2,7 @@
 /// An answer: a tree of maps, lists, texts and blocks of numbers. A block lies in one piece, a list of
 /// numbers or the rows of a matrix, so that it can be read as a column and written quickly.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -35,15 +37,39 @@ class SINEW_API Value {
   struct Entry;
   using List = std::vector<Value>;
   using Map = std::vector<Member>;
-  /// Numbers row by row; `columns` of a plain list is 0.
-  struct Block {
-    std::vector<double> numbers;
-    std::size_t columns = 0;
-
-    std::size_t size() const { return columns > 0 ? numbers.size() / columns : numbers.size(); }
-    std::span<const double> row(std::size_t i) const {
-      return std::span(numbers).subspan(i * columns, columns);
+  /// Numbers row by row; `columns` of a plain list is 0. Few, as of a point or a quaternion, lie in the block
+  /// itself: most of an answer's are few.
+  class Block {
+   public:
+    Block() = default;
+    explicit Block(std::span<const double> numbers, std::size_t columns = 0);
+    Block(const Block& other) : Block(other.numbers(), other.columns_) {}
+    Block(Block&& other) noexcept
+        : is_(other.is_),
+          count_(std::exchange(other.count_, 0)),
+          columns_(other.columns_) {}
+    Block& operator=(const Block& other);
+    Block& operator=(Block&& other) noexcept;
+    ~Block() {
+      if (count_ > few) delete[] is_.many;
     }
+
+    std::span<const double> numbers() const { return {count_ > few ? is_.many : is_.own.data(), count_}; }
+    std::size_t columns() const { return columns_; }
+    std::size_t size() const { return columns_ > 0 ? count_ / columns_ : count_; }
+    std::span<const double> row(std::size_t i) const { return numbers().subspan(i * columns_, columns_); }
+    void insert(std::size_t at, double number);
+
+   private:
+    static constexpr std::size_t few = 4;
+
+    double* data() { return count_ > few ? is_.many : is_.own.data(); }
+
+    union {
+      std::array<double, few> own;
+      double* many;
+    } is_ = {};
+    std::size_t count_ = 0, columns_ = 0;
   };
 
   /// A number kept as it was written, for `id`.
@@ -126,6 +152,11 @@ class SINEW_API Value {
   void append_json(std::string& text) const;
   /// The tree that reading that gives.
   Node node() const;
+  /// Calls `use` with what it is.
+  template <class Use>
+  decltype(auto) visit(Use&& use) const {
+    return std::visit(use, is_);
+  }
 
  private:
   static Value whole(std::int64_t value);

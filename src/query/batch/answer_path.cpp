@@ -74,7 +74,7 @@ std::optional<double> AnswerPath::number(const Value& answer) const {
       continue;
     }
     const std::size_t index = std::get<std::size_t>(step);
-    if (node && node->block() && node->block()->columns > 0) {
+    if (node && node->block() && node->block()->columns() > 0) {
       if (index >= node->size()) return {};
       numbers = node->block()->row(index);
       node = nullptr;
@@ -82,7 +82,7 @@ std::optional<double> AnswerPath::number(const Value& answer) const {
       if (index >= node->size()) return {};
       node = &(*node->items())[index];
     } else {
-      if (node && node->block()) numbers = node->block()->numbers;
+      if (node && node->block()) numbers = node->block()->numbers();
       node = nullptr;
       if (index >= numbers.size()) return {};
       entry = numbers[index];

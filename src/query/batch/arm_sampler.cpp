@@ -9,9 +9,9 @@
 #include <exception>
 #include <memory>
 
-#include "query/batch/query_entries.hpp"
+#include "query/arms/arms.hpp"
+#include "query/batch/row_places.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/io/arm_file.hpp"
 #include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {
@@ -25,70 +25,14 @@ struct ArmOutput {
 
 struct AskedArm {
   Arm arm;
-  std::vector<TendonHeld> held;     ///< of every tendon
-  std::vector<QueryEntry> tendons;  ///< what they are held at; none given: 0
-  std::array<QueryEntry, 6> wrench{};
-  ArmOptions options = {};
-  bool is_path = false;
-  std::vector<ArmOutput> outputs;
+  ArmOptions options;
+  ArmLoad load;  ///< what is the same in all rows
+  bool is_path;
+  std::vector<TendonHeld> held = {};    ///< of every tendon
+  std::vector<RowNumber> tendons = {};  ///< what they are held at
+  std::vector<RowNumber> wrench = {};
+  std::vector<ArmOutput> outputs = {};
 };
-
-std::vector<std::size_t> counts_of(const Arm& arm) {
-  std::vector<std::size_t> counts(arm.sections.size());
-  for (const ArmTendon& tendon : arm.tendons) ++counts[static_cast<std::size_t>(tendon.section())];
-  return counts;
-}
-
-/// `tensions` or `changes`, lists of sections; what is left out or null is not given.
-std::optional<std::vector<std::optional<QueryEntry>>> per_tendon(const Node& list,
-                                                                 const BatchQuestion& question,
-                                                                 const Arm& arm) {
-  const auto counts = counts_of(arm);
-  if (list.kind != Node::Kind::list || list.items.size() > counts.size()) return {};
-  std::vector<std::optional<QueryEntry>> values;
-  for (std::size_t m = 0; m < counts.size(); ++m) {
-    const Node* section = m < list.items.size() ? &list.items[m] : nullptr;
-    if (section && section->kind == Node::Kind::null) section = nullptr;
-    if (section && (section->kind != Node::Kind::list || section->items.size() != counts[m])) return {};
-    for (std::size_t i = 0; i < counts[m]; ++i) {
-      values.emplace_back();
-      if (!section || section->items[i].kind == Node::Kind::null) continue;
-      values.back() = query_entry(section->items[i], question);
-      if (!values.back()) return {};
-    }
-  }
-  return values;
-}
-
-bool read_tendons(const BatchQuestion& question, const Node* tensions, const Node* changes, AskedArm& asked) {
-  const std::size_t count = asked.arm.tendons.size();
-  asked.held.assign(count, changes && !tensions ? TendonHeld::change : TendonHeld::tension);
-  asked.tendons.assign(count, {});
-  std::vector<bool> given(count);
-  const auto take = [&](const Node* list, TendonHeld held) {
-    if (!list) return true;
-    const auto values = per_tendon(*list, question, asked.arm);
-    if (!values) return false;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!(*values)[i]) continue;
-      if (given[i]) return false;  // the query says so
-      given[i] = true;
-      asked.held[i] = held;
-      asked.tendons[i] = *(*values)[i];
-    }
-    return true;
-  };
-  return take(tensions, TendonHeld::tension) && take(changes, TendonHeld::change);
-}
-
-std::optional<ArmModel> model_of(std::string_view word) {
-  if (word == "rod") return ArmModel::rod;
-  if (word == "subsegment_rod") return ArmModel::subsegment_rod;
-  if (word == "subsegment_cc") return ArmModel::subsegment_cc;
-  if (word == "cc") return ArmModel::cc;
-  if (word == "prb") return ArmModel::prb;
-  return {};
-}
 
 std::optional<ArmOutput> output_of(const std::string& path, const Arm& arm) {
   const std::array<std::pair<const char*, ArmOutput::Of>, 4> single{{{"potential", ArmOutput::potential},
@@ -106,7 +50,7 @@ std::optional<ArmOutput> output_of(const std::string& path, const Arm& arm) {
   unsigned a = 0, b = 0;
   if (indices("tip.position[%u]%n", &a, nullptr) && a < 3) return ArmOutput{ArmOutput::position, a};
   if (indices("tip.quaternion[%u]%n", &a, nullptr) && a < 4) return ArmOutput{ArmOutput::quaternion, a};
-  const auto counts = counts_of(arm);
+  const auto counts = tendons_by_section(arm);
   const std::array<std::pair<const char*, ArmOutput::Of>, 3> lists{
       {{"tensions[%u][%u]%n", ArmOutput::tensions},
        {"changes[%u][%u]%n", ArmOutput::changes},
@@ -121,58 +65,13 @@ std::optional<ArmOutput> output_of(const std::string& path, const Arm& arm) {
   return {};
 }
 
-/// What such a question asks, if it is one: its numbers are those that a query would take.
-std::optional<AskedArm> asked_of_arm(const BatchQuestion& question) {
-  if (!is_arm(question.robot)) return {};
-  auto arm = read_arm(question.robot);
-  if (!arm) return {};
-  AskedArm asked{.arm = std::move(*arm), .held = {}, .tendons = {}, .outputs = {}};
-  asked.is_path = question.is_path;
-  const Node *tensions = nullptr, *changes = nullptr;
-  const auto number = [&](const Node& node) {
-    const auto entry = query_entry(node, question);
-    return entry && entry->input < 0 ? std::optional(entry->value) : std::nullopt;
-  };
-  for (const Member& field : question.query.root.members) {
-    const std::string_view key = field.key;
-    const Node& value = field.value;
-    if (key == "query") {
-      if (value.text != "forward") return {};
-    } else if (key == "tensions") {
-      tensions = &value;
-    } else if (key == "changes") {
-      changes = &value;
-    } else if (key == "wrench") {
-      const auto entries = query_entries(value, question);
-      if (!entries || entries->size() != 6) return {};
-      std::copy(entries->begin(), entries->end(), asked.wrench.begin());
-    } else if (key == "model") {
-      const auto model = model_of(value.text);
-      if (value.kind != Node::Kind::string || !model) return {};
-      asked.options.model = *model;
-    } else if (key == "accuracy") {
-      const auto given = number(value);
-      if (!given || !(*given >= 0 && *given <= 1)) return {};
-      asked.options.accuracy = *given;
-    } else {
-      return {};
-    }
-  }
-  if (!read_tendons(question, tensions, changes, asked)) return {};
-  for (const std::string& output : question.outputs) {
-    const auto found = output_of(output, asked.arm);
-    if (!found) return {};
-    asked.outputs.push_back(*found);
-  }
-  return asked;
-}
-
 class ArmSampler {
  public:
   explicit ArmSampler(std::shared_ptr<const AskedArm> asked)
       : asked_(std::move(asked)),
         work_(asked_->arm),
-        commands_(asked_->arm.tendons.size()) {}
+        commands_(asked_->arm.tendons.size()),
+        load_(asked_->load) {}
 
   void operator()(const SampleBlock& block) {
     work_.stop = StopToken(*block.stop);
@@ -262,15 +161,29 @@ class ArmSampler {
 
 }  // namespace
 
-SamplerKind arm_sampler(const BatchQuestion& question) {
-  auto asked = asked_of_arm(question);
-  if (!asked) return {};
-  const auto shared = std::make_shared<const AskedArm>(std::move(*asked));
-  return {.name = "arms row by row", .chunks = {32, 512}, .make = [shared]() -> Sampler {
-            return [sampler = std::make_shared<ArmSampler>(shared)](const SampleBlock& block) {
-              (*sampler)(block);
-            };
-          }};
+SamplerKind plan_arms(Context& of_robot, const RowPlaces& rows) {
+  if (of_robot.ask != Ask::forward) return {};
+  ArmContext context(of_robot);
+  const ArmForward read = read_arm_forward(context);
+  const bool is_plain = context.is_read() && !context.query.has("start") && !read.until && !read.wants_all &&
+                        read.wanted.words == usual_of(context.ask);
+  if (!is_plain || !rows.are_within({"tensions", "changes", "wrench"})) return {};
+  AskedArm asked{.arm = context.robot, .options = read.options, .load = read.load, .is_path = rows.is_path()};
+  std::vector<std::size_t> next(context.robot.sections.size());
+  for (std::size_t i = 0; i < read.commands.size(); ++i) {
+    const auto& [held, value] = read.commands[i];
+    const auto section = static_cast<std::size_t>(context.robot.tendons[i].section());
+    const std::string_view list = held == TendonHeld::tension ? "tensions" : "changes";
+    asked.held.push_back(held);
+    asked.tendons.push_back(rows.number(joined(joined(list, section), next[section]++), value));
+  }
+  asked.wrench = rows.numbers("wrench", read.load.wrench);
+  for (const std::string& output : rows.outputs()) {
+    const auto found = output_of(output, asked.arm);
+    if (!found) return {};
+    asked.outputs.push_back(*found);
+  }
+  return sampler_kind<ArmSampler>("arms row by row", {32, 512}, std::move(asked));
 }
 
 }  // namespace sinew::inline v1

@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include "query/batch/sampler.hpp"
+#include "query/batch/row_places.hpp"
+#include "query/tree_session.hpp"
 
 namespace sinew::inline v1 {
 
@@ -11,8 +12,8 @@ std::size_t chunk_size(const SamplerKind& kind, std::size_t samples, std::size_t
 SamplerKind choose_sampler(const BatchQuestion& question) {
   const auto has_words = [](const auto& words) { return !words.empty(); };
   if (std::ranges::any_of(question.words, has_words)) return query_sampler(question);
-  for (const auto& quick : {rod_sampler, pose_sampler, serial_sampler, arm_sampler})
-    if (SamplerKind kind = quick(question); kind.make) return kind;
+  if (auto session = TreeSession::open(question.robot))
+    if (SamplerKind quick = session->plan(RowPlaces(question)); quick.make) return quick;
   return query_sampler(question);
 }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <memory>
 
-#include "query/batch/query_entries.hpp"
+#include "query/batch/row_places.hpp"
+#include "query/kinematic/kinematics.hpp"
 #include "sinew/analysis/velocity_batch.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/io/robot_file.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -34,11 +34,12 @@ struct Output {
 };
 
 struct AskedPoses {
+  Robot robot;
   bool is_inverse = false, is_spatial = false;
-  std::vector<QueryEntry> pose;  ///< x, y, φ; position and quaternion; z, e₁, e₂
-  std::optional<OperationMode> independent;
-  std::vector<int> bending, elbow;
-  std::vector<Output> outputs;
+  std::optional<OperationMode> independent = {};
+  std::vector<RowNumber> pose = {};  ///< x, y, φ; position and quaternion; z, e₁, e₂
+  std::vector<int> bending = {}, elbow = {};
+  std::vector<Output> outputs = {};
 };
 
 /// `legs[2].curvature` between `legs[` and `].curvature`.
@@ -78,88 +79,41 @@ std::optional<Output> output_of(std::string_view path, const AskedPoses& asked, 
   return {};
 }
 
-/// Numbers under these keys.
-bool read_members(const Node& map, std::initializer_list<const char*> names, const BatchQuestion& question,
-                  AskedPoses& asked) {
-  for (const char* name : names) {
-    const Node* value = map.find(name);
-    const auto entry = value ? query_entry(*value, question) : std::nullopt;
-    if (!entry) return false;
-    asked.pose.push_back(*entry);
-  }
-  return true;
-}
-
-bool read_independent(const Node& place, const BatchQuestion& question, AskedPoses& asked) {
-  if (place.kind != Node::Kind::map) return false;
-  const Node* mode = place.find("mode");
-  if (mode && mode->text != "tilt" && mode->text != "half_turn") return false;
-  asked.independent = mode && mode->text == "half_turn" ? OperationMode::half_turn : OperationMode::tilt;
-  return place.members.size() == (mode ? 4U : 3U) && read_members(place, {"z", "e1", "e2"}, question, asked);
-}
-
-/// ±1 of each leg.
-bool read_signs(const Node& list, const BatchQuestion& question, std::vector<int>& signs) {
-  const auto found = constant_entries(list, question);
-  if (!found) return false;
-  for (const double sign : *found) signs.push_back(sign < 0 ? -1 : 1);
-  return true;
-}
-
-bool read_pose(const Node& pose, const BatchQuestion& question, AskedPoses& asked) {
-  const auto add = [&](const std::optional<std::vector<QueryEntry>>& entries, std::size_t size) {
-    if (!entries || entries->size() != size) return false;
-    asked.pose.insert(asked.pose.end(), entries->begin(), entries->end());
-    return true;
-  };
-  if (pose.kind != Node::Kind::map) return false;
-  if (!asked.is_spatial)
-    return pose.members.size() == 3 && read_members(pose, {"x", "y", "phi"}, question, asked);
-  const Node *position = pose.find("position"), *quaternion = pose.find("quaternion");
-  if (pose.members.size() != (quaternion ? 2U : 1U) || !position ||
-      !add(query_entries(*position, question), 3))
-    return false;
-  return quaternion ? add(query_entries(*quaternion, question), 4)
-                    : add(std::vector<QueryEntry>{{1}, {0}, {0}, {0}}, 4);
-}
-
-std::optional<AskedPoses> asked_of_poses(const BatchQuestion& question, const Robot& robot) {
-  AskedPoses asked{.is_spatial = std::holds_alternative<SpatialPose>(home(robot)),
-                   .pose = {},
-                   .independent = {},
-                   .bending = {},
-                   .elbow = {},
-                   .outputs = {}};
-  const auto legs = static_cast<std::size_t>(leg_count(robot));
-  for (const Member& field : question.query.root.members) {
-    if (field.key == "query") {
-      asked.is_inverse = field.value.text == "inverse";
-      if (!asked.is_inverse && field.value.text != "velocity") return {};
-    } else if (field.key == "pose") {
-      if (!read_pose(field.value, question, asked)) return {};
-    } else if (field.key == "independent") {
-      const bool is_held_in_planes = plane_count(robot) == 3;  // of others the question itself says why not
-      if (!is_held_in_planes || !read_independent(field.value, question, asked)) return {};
-    } else if (field.key == "bending") {
-      if (!read_signs(field.value, question, asked.bending)) return {};
-    } else if (field.key == "elbow") {
-      if (!read_signs(field.value, question, asked.elbow)) return {};
-    } else {
-      return {};
+/// A quaternion is scaled when it is read: where columns go into it, its other numbers are as written.
+bool put_spatial(const SpatialPose& pose, const RowPlaces& rows, AskedPoses& asked) {
+  asked.pose = rows.numbers("pose.position", std::span(pose.position.data(), 3));
+  std::vector<RowNumber> quaternion = rows.numbers("pose.quaternion", pose.quaternion);
+  if (std::ranges::any_of(quaternion, [](const RowNumber& part) { return part.input >= 0; }))
+    for (std::size_t k = 0; k < quaternion.size(); ++k) {
+      const Node* written = at(rows.trial().root, joined("pose.quaternion", k));
+      if (written->kind != Node::Kind::number) return false;
+      quaternion[k].value = written->number;
     }
+  asked.pose.insert(asked.pose.end(), quaternion.begin(), quaternion.end());
+  return rows.are_within({"pose.position", "pose.quaternion"});
+}
+
+/// Whether the rows' numbers are those of the pose.
+bool put_pose(const AskedPose& at, const RowPlaces& rows, AskedPoses& asked) {
+  const auto put = [&](std::initializer_list<std::pair<std::string_view, double>> parts) {
+    for (const auto& [place, value] : parts) asked.pose.push_back(rows.number(place, value));
+  };
+  if (at.independent) {
+    const auto& [free, mode] = *at.independent;
+    asked.independent = mode;
+    put({{"independent.z", free.z}, {"independent.e1", free.e1}, {"independent.e2", free.e2}});
+    return rows.are_within({"independent"});
   }
-  if (asked.pose.empty()) return {};
-  for (const std::string& output : question.outputs) {
-    const auto found = output_of(output, asked, legs);
-    if (!found) return {};
-    asked.outputs.push_back(*found);
-  }
-  return asked;
+  if (!at.pose) return false;
+  if (const auto* spatial = std::get_if<SpatialPose>(&*at.pose)) return put_spatial(*spatial, rows, asked);
+  const auto& planar = std::get<PlanarPose>(*at.pose);
+  put({{"pose.x", planar.x}, {"pose.y", planar.y}, {"pose.phi", planar.phi}});
+  return rows.are_within({"pose"});
 }
 
 class PoseSampler {
  public:
-  PoseSampler(const Robot& robot, const AskedPoses& asked) : robot_(robot), asked_(asked), work_(robot) {}
+  explicit PoseSampler(std::shared_ptr<const AskedPoses> asked) : shared_(std::move(asked)), work_(robot_) {}
 
   void operator()(const SampleBlock& block) {
     place(block);
@@ -267,8 +221,9 @@ class PoseSampler {
     }
   }
 
-  const Robot& robot_;
-  const AskedPoses& asked_;
+  std::shared_ptr<const AskedPoses> shared_;
+  const AskedPoses& asked_ = *shared_;
+  const Robot& robot_ = asked_.robot;
   Workspace work_;
   std::vector<double> poses_, squares_;  ///< of the quaternions given
   std::vector<Status> statuses_;
@@ -278,20 +233,37 @@ class PoseSampler {
 
 }  // namespace
 
-SamplerKind pose_sampler(const BatchQuestion& question) {
-  auto robot = read_robot(question.robot);
-  if (!robot || !has_velocity_batch(*robot)) return {};
-  auto asked = asked_of_poses(question, *robot);
-  if (!asked) return {};
-  struct Shared {
-    Robot robot;
-    AskedPoses asked;
-  };
-  const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), std::move(*asked)});
-  return {.name = "poses in lanes", .chunks = {2048, 16384}, .make = [shared]() -> Sampler {
-            return [shared, sampler = std::make_shared<PoseSampler>(shared->robot, shared->asked)](
-                       const SampleBlock& block) { (*sampler)(block); };
-          }};
+SamplerKind plan_poses(Context& context, const RowPlaces& rows) {
+  if (!has_velocity_batch(context.robot)) return {};
+  AskedPose at;
+  Branch branch;
+  KinematicWants wanted;
+  bool is_plain = !context.max_iterations;
+  if (context.ask == Ask::inverse) {
+    KinematicInverse read = read_kinematic_inverse(context);
+    is_plain = is_plain && read.start.empty() && !read.wants_all;
+    at = std::move(read.at), branch = std::move(read.branch), wanted = std::move(read.wanted);
+  } else if (context.ask == Ask::velocity) {
+    KinematicConfiguration read = read_kinematic_configuration(context);
+    is_plain = is_plain && !read.given.inputs;
+    at = std::move(read.given.at), branch = std::move(read.given.branch), wanted = std::move(read.wanted);
+  } else {
+    return {};
+  }
+  is_plain = is_plain && context.is_read() && branch.curvature.empty() && wanted.twist.empty() &&
+             !wanted.along && wanted.words == usual_of(context.ask);
+  AskedPoses asked{.robot = context.robot,
+                   .is_inverse = context.ask == Ask::inverse,
+                   .is_spatial = std::holds_alternative<SpatialPose>(home(context.robot)),
+                   .bending = std::move(branch.bending),
+                   .elbow = std::move(branch.elbow)};
+  if (!is_plain || !put_pose(at, rows, asked)) return {};
+  for (const std::string& output : rows.outputs()) {
+    const auto found = output_of(output, asked, static_cast<std::size_t>(leg_count(context.robot)));
+    if (!found) return {};
+    asked.outputs.push_back(*found);
+  }
+  return sampler_kind<PoseSampler>("poses in lanes", {2048, 16384}, std::move(asked));
 }
 
 }  // namespace sinew::inline v1

@@ -7,6 +7,7 @@
 #include "query/batch/answer_path.hpp"
 #include "query/batch/batch_state.hpp"
 #include "query/batch/field_layout.hpp"
+#include "query/batch/row_places.hpp"
 #include "query/tree_session.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
@@ -75,8 +76,6 @@ Batch::Field field_of(const Robot& robot, std::string name, const std::string& p
   field.unit = fmt::format("{}", fmt::join(units, ", "));
   return field;
 }
-
-bool is_name(const Node& node) { return node.kind == Node::Kind::string && node.text.starts_with('$'); }
 
 /// Texts for single numbers, `$name[1]`, in place of one for a list.
 Node single_numbers(const std::string& text, const FieldLayout& layout) {
@@ -240,34 +239,9 @@ Told read_told(const Document& asked, Errors& errors) {
   return told;
 }
 
-/// Whether a place is one of these, or a list or map around one.
-bool is_at_or_around(std::string_view place, std::span<const std::string> places) {
-  return std::ranges::any_of(places, [&](std::string_view one) {
-    return one.starts_with(place) && (place.empty() || one.size() == place.size() ||
-                                      one[place.size()] == '.' || one[place.size()] == '[');
-  });
-}
-
-/// Places of the names of a question, single numbers all.
-void collect_places(const Node& node, const std::string& place, std::vector<std::string>& places) {
-  if (is_name(node)) places.push_back(place);
-  for (std::size_t i = 0; i < node.items.size(); ++i) collect_places(node.items[i], joined(place, i), places);
-  for (const Member& member : node.members) collect_places(member.value, joined(place, member.key), places);
-}
-
-/// Some number for each name, which stays as the number's text, for messages.
-void put_numbers(Node& node) {
-  constexpr double some = 0.1;
-  if (is_name(node)) {
-    node.kind = Node::Kind::number;
-    node.number = some;
-  }
-  for (Node& item : node.items) put_numbers(item);
-  for (Member& member : node.members) put_numbers(member.value);
-}
-
-/// The same in `set`, of a robot that stays one: its own values, as far as its file has them. It is noted
-/// where there is no such place. Whether all of `set` is kept: what the number would break is left out.
+/// Numbers for the names in `set`, of a robot that stays one: its own values, as far as its file has them. It
+/// is noted where there is no such place. Whether all of `set` is kept: what the number would break is left
+/// out.
 bool put_own_numbers(Node& settings, const Document& robot, Errors& errors) {
   bool is_whole = true;
   std::vector<Member> kept;
@@ -278,7 +252,7 @@ bool put_own_numbers(Node& settings, const Document& robot, Errors& errors) {
       kept.push_back(one);
       continue;
     }
-    put_numbers(one.value);
+    put_some_numbers(one.value);
     auto changed = with(robot, {&one, 1});
     const auto other = changed ? read_robot(*changed) : tl::unexpected(std::move(changed.error()));
     if (other) {
@@ -297,15 +271,14 @@ bool put_own_numbers(Node& settings, const Document& robot, Errors& errors) {
 /// a wrong length, names in place of words. Numbers that are out of range are the rows' to tell, and so is
 /// that the robot has no answer: that is a status.
 Errors errors_of_all_rows(const Document& robot, const Node& query) {
-  std::vector<std::string> places;
-  collect_places(query, "", places);
+  const std::vector<std::string> places = places_of_names(query);
   Document trial{"query", query};
   Errors errors;
   Node* settings = trial.root.find("set");
   const bool is_whole =
       !settings || settings->kind != Node::Kind::map || put_own_numbers(*settings, robot, errors);
   if (!errors.empty()) return errors;
-  put_numbers(trial.root);
+  put_some_numbers(trial.root);
   auto session = TreeSession::open(robot);
   errors = session ? session->errors_of(trial) : session.error();
   const auto is_lacking = [](const Error& error) { return error.code == "not_available"; };

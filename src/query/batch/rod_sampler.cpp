@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
-#include "query/batch/query_entries.hpp"
+#include "query/batch/row_places.hpp"
+#include "query/rods/rods.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 
 namespace sinew::inline v1 {
@@ -17,45 +17,19 @@ constexpr std::array<std::string_view, 8> paths{
     "pose.quaternion[1]", "pose.quaternion[2]", "pose.quaternion[3]", "residual"};
 constexpr std::size_t residual = 7;
 
-/// What such a question asks, if it is one.
 struct AskedRods {
-  std::vector<QueryEntry> inputs;
-  SpatialWrench wrench = SpatialWrench::Zero();
-  RowStart start = RowStart::row_before;
-  std::vector<std::size_t> outputs;  ///< which of the paths
+  Robot robot;
+  std::vector<RowNumber> inputs;
+  SpatialWrench wrench;
+  RowStart start;
+  std::vector<std::size_t> outputs = {};  ///< which of the paths
 
   std::size_t first_input() const { return static_cast<std::size_t>(inputs.front().input); }
 };
 
-std::optional<AskedRods> asked_of_rods(const BatchQuestion& question) {
-  AskedRods asked;
-  asked.start = question.is_path ? RowStart::row_before : RowStart::home;
-  for (const Member& field : question.query.root.members) {
-    if (field.key == "query") {
-      if (field.value.text != "forward") return {};
-    } else if (field.key == "inputs") {
-      auto entries = query_entries(field.value, question);
-      if (!entries) return {};
-      asked.inputs = std::move(*entries);
-    } else if (field.key == "wrench") {
-      const auto wrench = constant_entries(field.value, question);
-      if (!wrench || wrench->size() != 6) return {};
-      std::copy(wrench->begin(), wrench->end(), asked.wrench.begin());
-    } else {
-      return {};
-    }
-  }
-  for (const std::string& output : question.outputs) {
-    const auto path = std::ranges::find(paths, output);
-    if (path == paths.end()) return {};
-    asked.outputs.push_back(static_cast<std::size_t>(path - paths.begin()));
-  }
-  return asked;
-}
-
 class RodSampler {
  public:
-  RodSampler(const Robot& robot, const AskedRods& asked) : robot_(robot), asked_(asked), work_(robot) {}
+  explicit RodSampler(std::shared_ptr<const AskedRods> asked) : shared_(std::move(asked)), work_(robot_) {}
 
   void operator()(const SampleBlock& block) {
     poses_.resize(block.count);
@@ -72,7 +46,7 @@ class RodSampler {
   /// A query would not take others.
   bool has_numbers(const SampleBlock& block, std::size_t k) const {
     return std::ranges::all_of(asked_.inputs,
-                               [&](const QueryEntry& entry) { return std::isfinite(entry.at(block, k)); });
+                               [&](const RowNumber& entry) { return std::isfinite(entry.at(block, k)); });
   }
   /// As they lie in memory where the inputs of a row do, one after the other.
   Numbers rows_of(const SampleBlock& block) {
@@ -106,8 +80,9 @@ class RodSampler {
     block.statuses[k] = has_numbers(block, k) ? sample_status(statuses_[k]) : refused;
   }
 
-  const Robot& robot_;
-  const AskedRods& asked_;
+  std::shared_ptr<const AskedRods> shared_;
+  const AskedRods& asked_ = *shared_;
+  const Robot& robot_ = asked_.robot;
   Workspace work_;
   std::vector<double> rows_, residuals_;
   std::vector<SpatialPose> poses_;
@@ -116,22 +91,24 @@ class RodSampler {
 
 }  // namespace
 
-SamplerKind rod_sampler(const BatchQuestion& question) {
-  const auto asked = asked_of_rods(question);
-  if (!asked) return {};
-  auto robot = read_robot(question.robot);
-  if (!robot || !has_equilibrium_batch(*robot) ||
-      static_cast<std::size_t>(input_count(*robot)) != asked->inputs.size())
-    return {};
-  struct Shared {
-    Robot robot;
-    AskedRods asked;
-  };
-  const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), *asked});
-  return {.name = "rods in lanes", .chunks = {1024, 8192}, .make = [shared]() -> Sampler {
-            return [shared, sampler = std::make_shared<RodSampler>(shared->robot, shared->asked)](
-                       const SampleBlock& block) { (*sampler)(block); };
-          }};
+SamplerKind plan_rods(Context& context, const RowPlaces& rows) {
+  if (context.ask != Ask::forward || !has_equilibrium_batch(context.robot)) return {};
+  const RodForward read = read_rod_forward(context);
+  const EquilibriumOptions& options = read.at.options;
+  const bool is_plain = context.is_read() && !context.max_iterations && !context.names_start &&
+                        !options.gravity && !read.until && !read.wants_all &&
+                        read.wanted.words == usual_of(context.ask);
+  if (!is_plain || !rows.are_within({"inputs"})) return {};
+  AskedRods asked{.robot = context.robot,
+                  .inputs = rows.numbers("inputs", read.at.inputs),
+                  .wrench = options.wrench,
+                  .start = rows.is_path() ? RowStart::row_before : RowStart::home};
+  for (const std::string& output : rows.outputs()) {
+    const auto path = std::ranges::find(paths, output);
+    if (path == paths.end()) return {};
+    asked.outputs.push_back(static_cast<std::size_t>(path - paths.begin()));
+  }
+  return sampler_kind<RodSampler>("rods in lanes", {1024, 8192}, std::move(asked));
 }
 
 }  // namespace sinew::inline v1

@@ -15,6 +15,9 @@
 
 namespace sinew::inline v1 {
 
+struct Context;
+class RowPlaces;
+
 /// How a sample ended: a Status, or why no solver was asked.
 using SampleStatus = std::uint8_t;
 inline constexpr SampleStatus refused = 8;         ///< the query at this sample is no good one
@@ -90,18 +93,16 @@ SINEW_API std::size_t chunk_size(const SamplerKind& kind, std::size_t samples, s
 /// Each sample by its own query: any robot, any query, any output.
 SINEW_API SamplerKind query_sampler(const BatchQuestion& question);
 
-/// Forward kinematics of rods, eight stretches of samples in the lanes; empty `make` where the question asks
-/// for more or less than that.
-SamplerKind rod_sampler(const BatchQuestion& question);
-
-/// Inverse kinematics and velocity analysis of poses in lanes; likewise.
-SamplerKind pose_sampler(const BatchQuestion& question);
-
-/// Tendon changes of serial robots in lanes; likewise.
-SamplerKind serial_sampler(const BatchQuestion& question);
-
-/// Equilibria of arms under load, one after the other, without queries; likewise.
-SamplerKind arm_sampler(const BatchQuestion& question);
+/// @name Plans
+/// Of a question that its mechanics read: what computes its rows without asking each. Empty `make` where the
+/// question asks for more or less than they know.
+/// @{
+SamplerKind plan_rods(Context& context,
+                      const RowPlaces& rows);  ///< forward, eight stretches of rows in lanes
+SamplerKind plan_poses(Context& context, const RowPlaces& rows);     ///< inverse and velocity, in lanes
+SamplerKind plan_sections(Context& context, const RowPlaces& rows);  ///< of serial robots, in lanes
+SamplerKind plan_arms(Context& context, const RowPlaces& rows);      ///< equilibria, one after the other
+/// @}
 
 /// The quickest there is.
 SINEW_API SamplerKind choose_sampler(const BatchQuestion& question);

@@ -7,11 +7,8 @@
 #include <memory>
 #include <variant>
 
-#include "query/batch/query_entries.hpp"
-#include "query/serial.hpp"
-#include "sinew/io/arm_file.hpp"
-#include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "query/batch/row_places.hpp"
+#include "query/serial/serial.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -24,9 +21,10 @@ using SerialOutput = std::variant<std::size_t, EndNumber>;  ///< or of the chang
 
 struct AskedSections {
   SerialRobot robot;
-  std::vector<std::array<QueryEntry, 2>> configuration;  ///< of all sections; those not given are straight
-  kernel::Model model = kernel::Model::exact;
-  std::vector<SerialOutput> outputs;
+  kernel::Model model;
+  std::vector<std::array<RowNumber, 2>> configuration =
+      {};  ///< of all sections; those not given are straight
+  std::vector<SerialOutput> outputs = {};
 
   bool has_ends() const {
     return std::ranges::any_of(outputs, [](const auto& o) { return std::holds_alternative<EndNumber>(o); });
@@ -68,53 +66,6 @@ std::optional<EndNumber> end_number_of(const std::string& path, const SerialRobo
       found && (*found)[0] <= last && (*found)[1] < 4)
     return EndNumber{(*found)[0], 3 + (*found)[1]};
   return {};
-}
-
-bool read_configuration(const Node& list, const BatchQuestion& question, AskedSections& asked) {
-  if (list.kind != Node::Kind::list || list.items.size() > asked.robot.sections.size()) return false;
-  for (const Node& section : list.items) {
-    const auto entries = query_entries(section, question);
-    if (!entries || entries->size() != 2) return false;
-    asked.configuration.push_back({(*entries)[0], (*entries)[1]});
-  }
-  asked.configuration.resize(asked.robot.sections.size());
-  return true;
-}
-
-/// The question's robot; of arms those that are asked as one.
-std::optional<SerialRobot> serial_robot(const BatchQuestion& question) {
-  if (!is_serial(question.robot) && !is_arm(question.robot)) return {};
-  auto robot = read_robot(question.robot);
-  const Node* model = question.query.root.find("model");
-  if (robot && robot->arm() && model && (model->text == "pcc" || model->text == "lsk"))
-    robot = robot->as(Model::cc);
-  return robot && robot->serial() ? std::optional(*robot->serial()) : std::nullopt;
-}
-
-std::optional<AskedSections> asked_of_sections(const BatchQuestion& question) {
-  auto robot = serial_robot(question);
-  if (!robot || std::ranges::any_of(robot->sections, &Section::is_extensible)) return {};
-  AskedSections asked{.robot = std::move(*robot), .configuration = {}, .outputs = {}};
-  for (const Member& field : question.query.root.members) {
-    if (field.key == "query") {
-      if (field.value.text != "forward") return {};
-    } else if (field.key == "configuration") {
-      if (!read_configuration(field.value, question, asked)) return {};
-    } else if (field.key == "model") {
-      asked.model = field.value.text == "lsk" ? kernel::Model::linear : kernel::Model::exact;
-    } else {
-      return {};
-    }
-  }
-  for (const std::string& output : question.outputs) {
-    if (const auto tendon = tendon_of(output, asked.robot))
-      asked.outputs.emplace_back(*tendon);
-    else if (const auto end = end_number_of(output, asked.robot))
-      asked.outputs.emplace_back(*end);
-    else
-      return {};
-  }
-  return asked.configuration.empty() ? std::nullopt : std::optional(std::move(asked));
 }
 
 class SerialSampler {
@@ -166,17 +117,31 @@ class SerialSampler {
 
 }  // namespace
 
-SamplerKind serial_sampler(const BatchQuestion& question) {
-  auto asked = asked_of_sections(question);
-  if (!asked) return {};
-  const auto shared = std::make_shared<const AskedSections>(std::move(*asked));
-  return {.name = shared->has_ends() ? "ends of sections" : "tendons in lanes",
-          .chunks = {2048, 16384},
-          .make = [shared]() -> Sampler {
-            return [sampler = std::make_shared<SerialSampler>(shared)](const SampleBlock& block) {
-              (*sampler)(block);
-            };
-          }};
+SamplerKind plan_sections(Context& of_robot, const RowPlaces& rows) {
+  SerialContext context(of_robot);
+  const auto is_extensible = std::ranges::any_of(context.robot.sections, &Section::is_extensible);
+  if (context.ask != Ask::forward || is_extensible) return {};
+  const SerialForward read = read_serial_forward(context);
+  const bool is_plain = context.is_read() && !context.max_iterations && !read.shape.changes &&
+                        read.pay_out.empty() && read.wanted.words == usual_of(context.ask);
+  if (!is_plain || !rows.are_within({"configuration"})) return {};
+  AskedSections asked{.robot = context.robot, .model = read.model};
+  for (std::size_t m = 0; m < read.shape.given.size(); ++m) {
+    const auto section = rows.numbers(joined("configuration", m), read.shape.given[m]);
+    asked.configuration.push_back({section[0], section[1]});
+  }
+  asked.configuration.resize(context.robot.sections.size());
+  for (const std::string& output : rows.outputs()) {
+    if (const auto tendon = tendon_of(output, asked.robot))
+      asked.outputs.emplace_back(*tendon);
+    else if (const auto end = end_number_of(output, asked.robot))
+      asked.outputs.emplace_back(*end);
+    else
+      return {};
+  }
+  const bool has_ends = asked.has_ends();
+  return sampler_kind<SerialSampler>(has_ends ? "ends of sections" : "tendons in lanes", {2048, 16384},
+                                     std::move(asked));
 }
 
 }  // namespace sinew::inline v1

@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "io/measured/measurement.hpp"
-#include "query/arms.hpp"
-#include "query/handlers.hpp"
+#include "query/arms/arms.hpp"
 #include "query/identify/identification.hpp"
 #include "sinew/io/measured_arm.hpp"
 
@@ -155,15 +154,20 @@ Value by_row(const Identification& done, const std::vector<double>& computed) {
   return list;
 }
 
-}  // namespace
+struct IdentifyQuestion {
+  std::optional<MeasuredRows> rows;  ///< there are some, where nothing was wrong
+  IdentificationRequest request;
+};
 
-void answer_arms_identify(Context& asked) {
-  ArmContext context(asked);
-  auto rows = read_rows(context);
-  const IdentificationRequest request = read_request(context, rows);
-  if (!context.ready()) return;
+IdentifyQuestion read_identify(ArmContext& context) {
+  IdentifyQuestion asked{read_rows(context), {}};
+  asked.request = read_request(context, asked.rows);
+  return asked;
+}
+
+void answer_identify(ArmContext& context, const IdentifyQuestion& asked) {
   const MeasuredArm arm = measured(context.robot);
-  const auto done = run_identification(arm, std::move(*rows), request);
+  const auto done = run_identification(arm, *asked.rows, asked.request);
   if (!done) {
     context.errors = done.error();
     return;
@@ -181,7 +185,7 @@ void answer_arms_identify(Context& asked) {
   for (const std::string& remark : remarks_of(arm, done->rows, done->parameters.size()))
     context.add_message(remark);
   put_identification(*done, answer);
-  const auto computed = predict_markers(done->found.arm, done->rows, request.model, request.stop);
+  const auto computed = predict_markers(done->found.arm, done->rows, asked.request.model, asked.request.stop);
   if (computed) answer["by_row"] = by_row(*done, *computed);
   if (!is_worth_keeping(*done)) return;
   if (const auto file = fitted_file(*done, "rows of a question"))
@@ -189,5 +193,9 @@ void answer_arms_identify(Context& asked) {
   else
     context.add_message(file.error().front().message);
 }
+
+}  // namespace
+
+void answer_arms_identify(Context& context) { handle<read_identify, answer_identify>(context); }
 
 }  // namespace sinew::inline v1

@@ -1,0 +1,59 @@
+/// Handler of `describe` of serial robots.
+#include <array>
+
+#include "query/serial/serial.hpp"
+#include "sinew/base/export.hpp"
+
+namespace sinew::inline v1 {
+
+namespace {
+
+void describe_serial(Context& asked) {
+  const SerialContext context(asked);
+  Value sections = Value::list(), coordinates = Value::list(), inputs = Value::list();
+  for (std::size_t m = 0; m < context.robot.sections.size(); ++m) {
+    const Section& section = context.robot.sections[m];
+    const std::string place = joined("sections", m);
+    Value one{
+        {"type", section.is_twin() ? "tpcj" : "neutral"},
+        {"segments", section.segments},
+        {"joint", section.joint},
+        {"tendons",
+         {{"count", section.tendons}, {"radius", section.tendon_radius}, {"angle", section.tendon_angle}}},
+        {"length", section.length()}};
+    if (section.disc_radius > 0)
+      one["disc"] = {{"height", section.disc_height}, {"radius", section.disc_radius}};
+    if (std::isfinite(section.limit)) one["limit"] = section.limit;
+    if (section.is_extensible()) one["extension"] = {section.min_extension, section.max_extension};
+    sections.push_back(std::move(one));
+    for (const char* name : section.is_twin() ? std::array{"beta_1", "beta_2"} : std::array{"theta", "phi"})
+      coordinates.push_back({{"name", joined(place, name)}, {"unit", "rad"}});
+    if (section.is_extensible()) coordinates.push_back({{"name", joined(place, "extension")}, {"unit", "m"}});
+    for (int i = 0; i < section.tendons; ++i)
+      inputs.push_back(
+          {{"name", joined(joined(place, "tendons"), static_cast<std::size_t>(i))}, {"unit", "m"}});
+  }
+  Value& answer = context.answer;
+  answer["status"] = "converged";
+  answer["kind"] = "serial";
+  answer["space"] = "spatial";
+  answer["inputs"] = inputs;
+  answer["configuration"] = coordinates;
+  answer["sections"] = sections;
+  answer["length"] = context.robot.length();
+  answer["tolerance"] = context.robot.tolerance;
+  if (const auto& motor = context.robot.motor)
+    answer["motor"] = {{"lead", motor->lead}, {"counts", motor->counts}, {"gear", motor->gear}};
+  if (const auto& stretch = context.robot.stretch)
+    answer["stretch"] = {{"stiffness", stretch->stiffness}, {"outside", stretch->outside}};
+  answer["models"] = Value::list({"pcc", "lsk"});
+  answer["model"] = "pcc";
+  answer["geometry"] = context.robot.geometry_inferred ? "inferred" : "given";
+  answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
+}
+
+}  // namespace
+
+void answer_serial_describe(Context& context) { tell<describe_serial>(context); }
+
+}  // namespace sinew::inline v1
