@@ -59,20 +59,22 @@ bool LoadedRod::same_active() const {
   return next == active_.size();
 }
 
-/// Downhill from a saddle along its lowest direction, as far as it pays.
+/// Downhill from a saddle along its lowest direction, as far as it pays: to either side, since tendons may
+/// become taut on one.
 bool LoadedRod::leave_saddle(Relaxed& result, double& energy) {
   std::vector<double> direction(at(model_->size));
   lowest(direction);
-  if (dot(direction, work_.gradient) > 0)  // what is left of the gradient shall help
+  if (!is_one_sided_ && dot(direction, work_.gradient) > 0)  // what is left of the gradient shall help
     for (double& x : direction) x = -x;
   std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
   const double from = energy;
-  for (double length = 0.3 * std::sqrt(model_->energy_scale); length > 1e-12; length *= 0.5) {
-    for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + length * direction[i];
-    energy = evaluate();
-    ++result.evaluations;
-    if (energy < from) return true;
-  }
+  for (double length = 0.3 * std::sqrt(model_->energy_scale); length > 1e-12; length *= 0.5)
+    for (const double way : {length, -length}) {
+      for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + way * direction[i];
+      energy = evaluate();
+      ++result.evaluations;
+      if (energy < from) return true;
+    }
   std::copy(trial_.begin(), trial_.end(), work_.y.begin());
   energy = evaluate();
   linearise(true);
@@ -85,8 +87,9 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
   const double scale = std::sqrt(model_->energy_scale), most = 1e3 * scale;
   double radius = std::numbers::pi * scale, energy = evaluate(), shift = 0, before = 0, rate = 1;
   ++result.evaluations;
-  bool kept = false;   // a factor of a Hessian near by, positive definite
-  bool swept = false;  // the Hessian at hand is of this iterate
+  bool kept = false;         // a factor of a Hessian near by, positive definite
+  bool swept = false;        // the Hessian at hand is of this iterate
+  bool left_saddle = false;  // where no step was short enough
   for (;; ++result.iterations) {
     if (!kept) {
       if (!swept) linearise(true);
@@ -183,6 +186,13 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       energy = restore();
       swept = true;
       if (radius < 1e-14 * scale) {
+        // Down a saddle by so little that rounding hides it, or held back by what becomes taut on one side?
+        if (negative > 0 && options.leave_saddles && !left_saddle && leave_saddle(result, energy)) {
+          left_saddle = true;
+          radius = std::numbers::pi * scale;
+          swept = false;
+          continue;
+        }
         result.status = Status::stalled;
         return result;
       }

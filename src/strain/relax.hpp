@@ -100,8 +100,13 @@ class LoadedRod {
   /// What a tendon held by its end is too short by, where relax() found it unreachable [m].
   double lacks(std::size_t tendon) const;
   /// The least ratio of the energy's second variation to the elastic one, with its direction: without load 1,
-  /// at any resolution. Below 0 it is the ratio in the direction of the Hessian's lowest eigenvalue.
+  /// at any resolution. Below 0 it is the ratio in the direction of the Hessian's lowest eigenvalue. Tendons
+  /// that are exactly at rest resist where they would be longer, so that its sign matters.
   double lowest(std::span<double> direction);
+  /// The last lowest() is a lower bound: too many tendons are at rest, and none of them was counted.
+  bool is_bound() const { return is_bound_; }
+  /// Held by its end, and neither taut nor slack but for rounding.
+  bool at_rest(std::size_t tendon) const;
 
  private:
   void spread_tensions();
@@ -129,6 +134,13 @@ class LoadedRod {
   double gradient_norm() const;
 
   void solve_small(std::span<double> t) const;
+  bool pulls(std::size_t tendon) const;
+  std::span<const double> length_gradient(std::size_t tendon) const {
+    return std::span(work_.length_gradient).subspan(tendon * work_.y.size(), work_.y.size());
+  }
+  /// With those tendons alone that count.
+  /// @param square |direction|² per elastic energy
+  double lowest_on_face(std::span<double> direction, double& square);
 
   bool potential_ = true;
   bool searches_ = false;  ///< tendons may be softened
@@ -149,6 +161,10 @@ class LoadedRod {
   std::vector<double> expected_;  ///< tensions to begin with [N]
   int left_ = 0;                  ///< Hessians and factors that a search may still take
   std::vector<int> active_;
+  std::vector<std::size_t> resting_;  ///< tendons at rest, while lowest() tries which of them become taut
+  unsigned tautened_ = 0;             ///< a bit for each of them
+  bool is_bound_ = false, is_one_sided_ = false;  ///< of the last lowest()
+  double tolerance_ = 1e-10;                      ///< of the last relax()
   std::vector<double> columns_, small_, sides_;
   std::vector<double> trial_, step_;
   int stride_ = 8;
