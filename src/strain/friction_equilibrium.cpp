@@ -84,14 +84,7 @@ Relaxed FrictionRod::newton(const RelaxOptions& options, double share_left) {
       std::copy(work_.y.begin(), work_.y.end(), start_.begin());
     }
     if (result.residual <= enough || waits > patience || !std::isfinite(result.residual)) break;
-    if (result.iterations >= options.max_iterations) {
-      result.status = Status::iteration_limit;
-      return result;
-    }
-    if (options.stop && options.stop()) {
-      result.status = Status::stopped;
-      return result;
-    }
+    if (must_end(result, options)) return result;
     for (const Chain& chain : chains_)
       if (!chain.spans.held || (chain.tendon.friction > 0 && chain.spans.tension > 0))  // else it is known
         for (std::size_t k = 0; k < chain.units.size(); ++k)

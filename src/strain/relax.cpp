@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/at.hpp"
@@ -99,10 +100,7 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       swept = false;
     }
     result.residual = gradient_norm();
-    if (!std::isfinite(energy) || !std::isfinite(result.residual)) {
-      result.status = Status::left_domain;
-      return result;
-    }
+    if (!std::isfinite(energy)) result.residual = std::numeric_limits<double>::quiet_NaN();
     if (result.residual <= options.tolerance) {
       if (kept) return result;
       result.negative = factor_all(0);
@@ -119,14 +117,7 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       swept = false;
       continue;
     }
-    if (result.iterations >= options.max_iterations || left_ <= 0) {
-      result.status = Status::iteration_limit;
-      return result;
-    }
-    if (options.stop && options.stop()) {
-      result.status = Status::stopped;
-      return result;
-    }
+    if (must_end(result, options, left_ <= 0)) return result;
     if (kept) {  // worth another step of the same factor, or a new one
       const double reduced = result.residual / before;
       rate = std::max(reduced, 1e-12);
@@ -218,19 +209,8 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
   linearise(true);
   result.residual = gradient_norm();
   for (;; ++result.iterations) {
-    if (!std::isfinite(result.residual)) {
-      result.status = Status::left_domain;
-      return result;
-    }
     if (result.residual <= options.tolerance) return result;
-    if (result.iterations >= options.max_iterations || left_ <= 0) {
-      result.status = Status::iteration_limit;
-      return result;
-    }
-    if (options.stop && options.stop()) {
-      result.status = Status::stopped;
-      return result;
-    }
+    if (must_end(result, options, left_ <= 0)) return result;
     const double before = result.residual;
     std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
     bool accept = false;

@@ -2,6 +2,7 @@
 /// Equilibria of a rod with tendons: Newton's steps in a trust region of the energy; where a load has no
 /// potential, Newton's steps that lower the residual. Theory: docs/theory/strain_rod.md
 #pragma once
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -36,6 +37,20 @@ struct Relaxed {
   int negative = 0;     ///< directions in which the energy falls
   double reached = 1;   ///< share of loads and inputs up to which equilibria were found
 };
+
+/// After each round of a search that has not found its end: whether it ends nevertheless, and why.
+/// @param spent what it may cost is used up, whatever the bound on iterations
+inline bool must_end(Relaxed& result, const RelaxOptions& options, bool spent = false) {
+  if (!std::isfinite(result.residual))
+    result.status = Status::left_domain;
+  else if (result.iterations >= options.max_iterations || spent)
+    result.status = Status::iteration_limit;
+  else if (options.stop && options.stop())
+    result.status = Status::stopped;
+  else
+    return false;
+  return true;
+}
 
 /// Whether the coordinates of one rod are the first of each component of another, finer one.
 bool is_within(const RodModel& from, const RodModel& to);
