@@ -121,10 +121,11 @@ TEST(ArmMargin, IsUsedUpWhereTinyCommandsAndForcesThrowTheArmOver) {
             found.state.report.ok() && found.state.tip.p.head<2>().norm() < 1e-6 && found.value > 0;
         (stays ? low : high) = middle;
       }
-      if (count < 3)
+      if (count < 3) {
         EXPECT_NEAR(low, pi * pi / 4, 0.05) << count;  // some direction is free
-      else
+      } else {
         EXPECT_GT(low, 1.1 * pi * pi / 4) << count;
+      }
       EXPECT_NEAR(margin_of(arm, low - 2e-3, options).value, 0, 2e-3);
       const auto farthest = [&](double load) {
         double most = 0;
