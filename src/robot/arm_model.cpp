@@ -389,16 +389,21 @@ class Builder {
     rod_.elements.push_back(element);
     ++rod_.spans.back().elements;
     const double h = element.length;
-    add_shares(rod_.masses, h, section_at(section, a).mass, section_at(section, b).mass);
-    add_shares(rod_.lengths, h, 1, 1);
+    const auto mass = [&](double place) { return section_at(section, place).mass; };
+    add_shares(rod_.masses, h, {mass(a), mass(0.5 * (a + b)), mass(b)});
+    add_shares(rod_.lengths, h, {1, 1, 1});
     rod_.places.push_back(rod_.places.back() + h);
   }
   /// ∫ of a density times the place by trapezoids with their correction by slopes: exact to fourth order.
-  static void add_shares(std::vector<strain::NodeShare>& shares, double h, double first, double last) {
+  /// @param density at both ends and between, where it is a square of the place at most
+  static void add_shares(std::vector<strain::NodeShare>& shares, double h,
+                         const std::array<double, 3>& density) {
+    const auto [first, middle, last] = density;
+    const double rise = last - first, bow = 2 * (2 * middle - first - last);
     shares.emplace_back();
     strain::NodeShare &before = shares[shares.size() - 2], &after = shares.back();
-    before.amount += h / 2 * first + h / 12 * (last - first);
-    after.amount += h / 2 * last - h / 12 * (last - first);
+    before.amount += h / 2 * first + h / 12 * (rise + bow);
+    after.amount += h / 2 * last - h / 12 * (rise - bow);
     before.moment[2] += first * h * h / 12;
     after.moment[2] -= last * h * h / 12;
   }

@@ -64,32 +64,27 @@ bool FrictionRod::holds() {
 
 /// Newton's steps in coordinates and tensions: the Hessian is taken at the tensions that the last step
 /// foresaw, since those of stiff tendons at its end are far off.
-Relaxed FrictionRod::newton(const RelaxOptions& options) {
+/// @param share_left ends where so much of the first residual is left, if that is more than the tolerance
+Relaxed FrictionRod::newton(const RelaxOptions& options, double share_left) {
   Relaxed result;
   const double scale = std::sqrt(model_->energy_scale), most = std::numbers::pi * scale;
   constexpr int patience = 6;
   for (Chain& chain : chains_) chain.chosen.clear();
-  double best = std::numeric_limits<double>::max();
+  double best = std::numeric_limits<double>::max(), enough = options.tolerance;
   for (int waits = 0;; ++result.iterations) {
     evaluate();
     sweep_back(*model_, work_);
     add_drag();
     ++result.evaluations;
     result.residual = residual();
+    if (result.iterations == 0) enough = std::max(enough, share_left * result.residual);
     if (result.residual < best) {
       if (result.residual < 0.9 * best) waits = 0;
       best = result.residual;
       std::copy(work_.y.begin(), work_.y.end(), start_.begin());
     }
-    if (result.residual <= options.tolerance || waits > patience || !std::isfinite(result.residual)) break;
-    if (result.iterations >= options.max_iterations) {
-      result.status = Status::iteration_limit;
-      return result;
-    }
-    if (options.stop && options.stop()) {
-      result.status = Status::stopped;
-      return result;
-    }
+    if (result.residual <= enough || waits > patience || !std::isfinite(result.residual)) break;
+    if (must_end(result, options)) return result;
     for (const Chain& chain : chains_)
       if (!chain.spans.held || (chain.tendon.friction > 0 && chain.spans.tension > 0))  // else it is known
         for (std::size_t k = 0; k < chain.units.size(); ++k)
@@ -111,8 +106,7 @@ Relaxed FrictionRod::newton(const RelaxOptions& options) {
           chain.pull[k] += share * change_[chain.first_column + static_cast<int>(k)];
     ++waits;
   }
-  if (result.residual > options.tolerance ||
-      !std::isfinite(result.residual)) {  // as near as rounding lets it?
+  if (result.residual > enough || !std::isfinite(result.residual)) {  // as near as rounding lets it?
     std::copy(start_.begin(), start_.end(), work_.y.begin());
     evaluate();
     result.residual = best;
@@ -145,7 +139,7 @@ Relaxed FrictionRod::flow(const RelaxOptions& options) {
   bool ended = false;
   while (!ended) {
     drag_ = drag < 1e-3 ? 0 : drag;
-    const Relaxed one = newton(each);
+    const Relaxed one = newton(each, drag_ > 0 ? 0.02 : 0);
     ended = drag_ == 0 && one.status == Status::converged;
     drag_ = 0;
     result.iterations += one.iterations;
@@ -155,7 +149,7 @@ Relaxed FrictionRod::flow(const RelaxOptions& options) {
     if (one.status == Status::stopped) break;
     if (one.status == Status::converged) {
       keep();
-      drag *= 0.3;
+      drag *= one.iterations <= 2 ? 0.1 : 0.3;
     } else {
       work_.y = anchor_;
       for (std::size_t i = 0; i < chains_.size(); ++i) chains_[i].pull = pulls[i];
@@ -190,6 +184,7 @@ Relaxed FrictionRod::rigid(const RelaxOptions& options, bool flows) {
   soften(share);
   std::vector<double> y;
   std::vector<std::vector<double>> pulls(chains_.size());
+  bool failed = false;
   const auto remember_start = [&] {
     y = work_.y;
     for (std::size_t i = 0; i < chains_.size(); ++i) pulls[i] = chains_[i].pull;
@@ -201,15 +196,21 @@ Relaxed FrictionRod::rigid(const RelaxOptions& options, bool flows) {
   const bool any = std::ranges::any_of(chains_, [](const Chain& c) { return c.tendon.compliance <= 0; });
   for (int round = 0; round < 40; ++round) {
     RelaxOptions each = options;
-    if (any && !flows) each.tolerance = std::max(options.tolerance, std::min(1e-4, before));
-    const Relaxed one = flows ? flow(each) : newton(each);
+    if (any) each.tolerance = std::max(options.tolerance, std::min(1e-4, before));
+    const bool damps = flows && (round == 0 || failed);
+    const Relaxed one = damps ? flow(each) : newton(each, 0);
+    failed = one.status != Status::converged;
     if (round == 0) first_iterations_ = one.iterations;
     result.status = one.status;
     result.residual = one.residual;
     result.iterations += one.iterations;
     result.evaluations += one.evaluations;
     if (one.status == Status::stopped) break;
-    if (one.status != Status::converged) {
+    if (failed && flows && !damps) {
+      recall();
+      continue;
+    }
+    if (failed) {
       if (round == 0 || share >= 1) break;
       lowest_failed = share;
       soften(share = std::min(1.0, 10 * share));

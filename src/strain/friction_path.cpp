@@ -77,7 +77,9 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
   std::vector<NodeLoad> mixed = last_loads;
   RelaxOptions quick = options;
   quick.max_iterations = std::min(options.max_iterations, 25);
-  constexpr double least = 1.0 / 256;
+  // Longer parts than this are cut before they are damped: shorter ones tell better in which order guides
+  // slip.
+  constexpr double damped_from = 1.0 / 4, least = 1.0 / 256;
   double done = 0, part = 1;
   result.found.reached = 0;
   const int budget = 10 * std::max(options.max_iterations, 1);
@@ -96,8 +98,10 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
     Relaxed one = equilibrium(quick, false);
     int iterations = one.iterations, evaluations = one.evaluations;
     const bool refused = one.status != Status::converged && one.status != Status::stopped;
-    if (refused && part <= least) {  // there is none near by: it moves on by itself
-      one = equilibrium(options, true);
+    if (refused && part <= damped_from) {  // it moves on by itself
+      RelaxOptions damped = options;
+      if (part > least) damped.max_iterations = std::min(options.max_iterations, 50);
+      one = equilibrium(damped, true);
       iterations += one.iterations;
       evaluations += one.evaluations;
     }

@@ -164,7 +164,7 @@ class FrictionRod {
   void solve_all(std::span<double> sides);
   double residual() const;
   bool holds();
-  Relaxed newton(const RelaxOptions& options);
+  Relaxed newton(const RelaxOptions& options, double share_left);
   Relaxed flow(const RelaxOptions& options);
   void soften(double share);
   Relaxed rigid(const RelaxOptions& options, bool flows);

@@ -129,14 +129,20 @@ int LoadedRod::factor_all(double shift) {
   return factor_with_tendons(shift);
 }
 
+/// Whether a tendon counts as one that pulls by its stretch; of those at rest, as `lowest()` has it.
+bool LoadedRod::pulls(std::size_t i) const {
+  for (std::size_t k = 0; k < resting_.size(); ++k)
+    if (resting_[k] == i) return (tautened_ >> k & 1U) != 0;
+  return !holds[i].by_tension && tensions_[i] > 0;
+}
+
 int LoadedRod::factor_with_tendons(double shift) {
   --left_;
   const Inertia inertia = factor(*factors_->model_, factors_->work_, shift);
   if (!inertia.ok) return -1;
   active_.clear();
   for (std::size_t i = 0; i < holds.size(); ++i)
-    if (assumes_ ? assumed_[i] != 0 : !holds[i].by_tension && tensions_[i] > 0)
-      active_.push_back(static_cast<int>(i));
+    if (assumes_ ? assumed_[i] != 0 : pulls(i)) active_.push_back(static_cast<int>(i));
   if (active_.empty()) return inertia.negative;
   const int n = model_->size, m = static_cast<int>(active_.size());
   for (double& x : columns_) x = 0;

@@ -1,11 +1,18 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/at.hpp"
 #include "strain/norm.hpp"
 #include "strain/relax.hpp"
 
 namespace sinew::inline v1::strain {
+namespace {
+
+/// Tendons at rest for whose sake all ways to tauten them are tried.
+constexpr std::size_t most_resting = 6;
+
+}  // namespace
 
 /// The elastic energy's second variation at rest times a vector: near the identity, but for taper and for
 /// what the quadrature makes of polynomials.
@@ -28,14 +35,15 @@ void LoadedRod::elastic(std::span<const double> x, std::span<double> y) const {
   }
 }
 
-double LoadedRod::lowest(std::span<double> direction) {
+double LoadedRod::lowest_on_face(std::span<double> direction, double& square) {
   double shift = 0;
   for (int tries = 0; factor_all(shift) != 0 && tries < 60; ++tries) shift = shift == 0 ? 1e-3 : 2 * shift;
   const std::size_t n = at(model_->size);
   std::vector<double> x(n * row, 0.0), weighted(n);
   some_direction(direction);
   double value = 0;
-  for (int round = 0; round < 30; ++round) {
+  const int most = resting_.empty() ? 30 : 200;  // then signs of products with the direction matter
+  for (int round = 0; round < most; ++round) {
     elastic(direction, weighted);
     const double size = dot(direction, weighted);  // in elastic energy; 1 from the second round on
     // With a shift it is the Hessian's lowest direction, else that of its ratio to the elastic energy.
@@ -53,10 +61,63 @@ double LoadedRod::lowest(std::span<double> direction) {
     value = next;
     if (ends) break;
   }
-  if (shift > 0) value *= dot(direction, direction);  // of the same direction, over its elastic energy
+  square = dot(direction, direction);  // per elastic energy
+  if (shift > 0) value *= square;      // of the same direction, over its elastic energy
   const double length = norm(direction);
   for (double& v : direction) v /= length;
   return value;
+}
+
+bool LoadedRod::at_rest(std::size_t i) const {
+  const TendonHold& hold = holds[i];
+  if (hold.by_tension || hold.toe > 0 || yields_.empty()) return false;
+  const double bend = std::sqrt(yields_[i]), scale = std::sqrt(model_->energy_scale),
+               rounding = 10 * tolerance_;
+  return tensions_[i] * bend <= rounding * scale && slack(i) <= rounding * scale * bend;
+}
+
+/// The energy's second variation with tendons at rest is ½(vᵀHv + Σ⟨∂ℓ·v⟩²/c): quadratic where the same of
+/// them become taut. Its least ratio is an eigenvalue of the quadratic form at whose direction it lies, and
+/// the least of that form: so it is among the least of all 2ⁿ forms. Each is told by what the variation truly
+/// is at its direction, so that none is too low.
+double LoadedRod::lowest(std::span<double> direction) {
+  resting_.clear();
+  for (std::size_t i = 0; i < holds.size(); ++i)
+    if (at_rest(i)) resting_.push_back(i);
+  is_bound_ = resting_.size() > most_resting;
+  if (is_bound_) resting_.clear();
+  is_one_sided_ = !resting_.empty();
+  double square = 0;
+  if (!is_one_sided_) return lowest_on_face(direction, square);
+  const std::size_t n = at(model_->size);
+  std::vector<double> here(n);
+  double best = std::numeric_limits<double>::infinity(), best_key = best;
+  for (unsigned face = 0; face < 1U << resting_.size(); ++face) {
+    tautened_ = face;
+    const double value = lowest_on_face(here, square);
+    for (const double sign : {1.0, -1.0}) {
+      double there = value;
+      for (std::size_t k = 0; k < resting_.size(); ++k) {
+        const double longer = sign * std::sqrt(square) * dot(length_gradient(resting_[k]), here),
+                     c = give(resting_[k]);
+        const bool counted = (face >> k & 1U) != 0, counts = longer > 0;
+        if (counted == counts) continue;
+        if (c > 0)
+          there += (counts ? 1 : -1) * longer * longer / c;
+        else if (counts)  // it does not stretch
+          there = std::numeric_limits<double>::infinity();
+      }
+      // Below 0 the direction is the lowest by its size, not by its elastic energy.
+      const double key = there < 0 ? there / square : there;
+      if (!(key < best_key)) continue;
+      best = there;
+      best_key = key;
+      for (std::size_t i = 0; i < n; ++i) direction[i] = sign * here[i];
+    }
+  }
+  resting_.clear();
+  factor_all(0);
+  return best;
 }
 
 void make_symmetric(const RodModel& model, RodWork& work) {

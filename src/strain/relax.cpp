@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/at.hpp"
@@ -165,20 +166,22 @@ bool LoadedRod::same_active() const {
   return next == active_.size();
 }
 
-/// Downhill from a saddle along its lowest direction, as far as it pays.
+/// Downhill from a saddle along its lowest direction, as far as it pays: to either side, since tendons may
+/// become taut on one.
 bool LoadedRod::leave_saddle(Relaxed& result, double& energy) {
   std::vector<double> direction(at(model_->size));
   lowest(direction);
-  if (dot(direction, work_.gradient) > 0)  // what is left of the gradient shall help
+  if (!is_one_sided_ && dot(direction, work_.gradient) > 0)  // what is left of the gradient shall help
     for (double& x : direction) x = -x;
   std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
   const double from = energy;
-  for (double length = saddle_step * std::sqrt(model_->energy_scale); length > 1e-12; length *= 0.5) {
-    for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + length * direction[i];
-    energy = evaluate();
-    ++result.evaluations;
-    if (energy < from) return true;
-  }
+  for (double length = saddle_step * std::sqrt(model_->energy_scale); length > 1e-12; length *= 0.5)
+    for (const double way : {length, -length}) {
+      for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + way * direction[i];
+      energy = evaluate();
+      ++result.evaluations;
+      if (energy < from) return true;
+    }
   std::copy(trial_.begin(), trial_.end(), work_.y.begin());
   energy = evaluate();
   linearise(true);
@@ -192,9 +195,10 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
   const double scale = std::sqrt(model_->energy_scale), most = 1e3 * scale;
   double radius = std::numbers::pi * scale, energy = evaluate(), before = 0, rate = 1;
   ++result.evaluations;
-  int forgiven = 0;    // steps that raised the gradient where the energy does not tell
-  bool kept = false;   // a factor of a Hessian near by, positive definite
-  bool swept = false;  // the Hessian at hand is of this iterate
+  int forgiven = 0;          // steps that raised the gradient where the energy does not tell
+  bool kept = false;         // a factor of a Hessian near by, positive definite
+  bool swept = false;        // the Hessian at hand is of this iterate
+  bool left_saddle = false;  // where no step was short enough
   for (;; ++result.iterations) {
     if (!kept) {
       if (!swept) linearise(true);
@@ -204,10 +208,7 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       swept = false;
     }
     result.residual = gradient_norm();
-    if (!std::isfinite(energy) || !std::isfinite(result.residual)) {
-      result.status = Status::left_domain;
-      return result;
-    }
+    if (!std::isfinite(energy)) result.residual = std::numeric_limits<double>::quiet_NaN();
     if (result.residual <= options.tolerance) {
       if (kept) return result;
       result.negative = factor_all(0);
@@ -224,14 +225,7 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       swept = false;
       continue;
     }
-    if (result.iterations >= options.max_iterations || left_ <= 0) {
-      result.status = Status::iteration_limit;
-      return result;
-    }
-    if (options.stop && options.stop()) {
-      result.status = Status::stopped;
-      return result;
-    }
+    if (must_end(result, options, left_ <= 0)) return result;
     if (kept) {  // worth another step of the same factor, or a new one
       const double reduced = result.residual / before;
       rate = std::max(reduced, 1e-12);
@@ -297,6 +291,13 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       energy = restore();
       swept = true;
       if (radius < 1e-14 * scale) {
+        // Down a saddle by so little that rounding hides it, or held back by what becomes taut on one side?
+        if (descent.negative > 0 && options.leave_saddles && !left_saddle && leave_saddle(result, energy)) {
+          left_saddle = true;
+          radius = std::numbers::pi * scale;
+          swept = false;
+          continue;
+        }
         result.status = Status::stalled;
         return result;
       }
@@ -322,19 +323,8 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
   linearise(true);
   result.residual = gradient_norm();
   for (;; ++result.iterations) {
-    if (!std::isfinite(result.residual)) {
-      result.status = Status::left_domain;
-      return result;
-    }
     if (result.residual <= options.tolerance) return result;
-    if (result.iterations >= options.max_iterations || left_ <= 0) {
-      result.status = Status::iteration_limit;
-      return result;
-    }
-    if (options.stop && options.stop()) {
-      result.status = Status::stopped;
-      return result;
-    }
+    if (must_end(result, options, left_ <= 0)) return result;
     const double before = result.residual;
     std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
     bool accept = false;

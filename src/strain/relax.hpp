@@ -2,6 +2,7 @@
 /// Equilibria of a rod with tendons: Newton's steps in a trust region of the energy; where a load has no
 /// potential, Newton's steps that lower the residual. Theory: docs/theory/strain_rod.md
 #pragma once
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -36,6 +37,20 @@ struct Relaxed {
   int negative = 0;     ///< directions in which the energy falls
   double reached = 1;   ///< share of loads and inputs up to which equilibria were found
 };
+
+/// After each round of a search that has not found its end: whether it ends nevertheless, and why.
+/// @param spent what it may cost is used up, whatever the bound on iterations
+inline bool must_end(Relaxed& result, const RelaxOptions& options, bool spent = false) {
+  if (!std::isfinite(result.residual))
+    result.status = Status::left_domain;
+  else if (result.iterations >= options.max_iterations || spent)
+    result.status = Status::iteration_limit;
+  else if (options.stop && options.stop())
+    result.status = Status::stopped;
+  else
+    return false;
+  return true;
+}
 
 /// Whether the coordinates of one rod are the first of each component of another, finer one.
 bool is_within(const RodModel& from, const RodModel& to);
@@ -99,8 +114,13 @@ class LoadedRod {
   /// What a tendon held by its end is too short by, where relax() found it unreachable [m].
   double lacks(std::size_t tendon) const;
   /// The least ratio of the energy's second variation to the elastic one, with its direction: without load 1,
-  /// at any resolution. Below 0 it is the ratio in the direction of the Hessian's lowest eigenvalue.
+  /// at any resolution. Below 0 it is the ratio in the direction of the Hessian's lowest eigenvalue. Tendons
+  /// that are exactly at rest resist where they would be longer, so that its sign matters.
   double lowest(std::span<double> direction);
+  /// The last lowest() is a lower bound: too many tendons are at rest, and none of them was counted.
+  bool is_bound() const { return is_bound_; }
+  /// Held by its end, and neither taut nor slack but for rounding.
+  bool at_rest(std::size_t tendon) const;
 
  private:
   void spread_tensions();
@@ -140,6 +160,13 @@ class LoadedRod {
   double gradient_norm() const;
 
   void solve_small(std::span<double> t) const;
+  bool pulls(std::size_t tendon) const;
+  std::span<const double> length_gradient(std::size_t tendon) const {
+    return std::span(work_.length_gradient).subspan(tendon * work_.y.size(), work_.y.size());
+  }
+  /// With those tendons alone that count.
+  /// @param square |direction|² per elastic energy
+  double lowest_on_face(std::span<double> direction, double& square);
 
   bool potential_ = true;
   bool searches_ = false;  ///< tendons may be softened
@@ -164,6 +191,10 @@ class LoadedRod {
   bool assumes_ = false;              ///< factor_all takes tendons as in assumed_, not as they are
   std::vector<char> assumed_, then_;  ///< tendons that a step takes as taut; that are after it
   std::vector<double> first_, best_, lowest_;  ///< steps
+  std::vector<std::size_t> resting_;  ///< tendons at rest, while lowest() tries which of them become taut
+  unsigned tautened_ = 0;             ///< a bit for each of them
+  bool is_bound_ = false, is_one_sided_ = false;  ///< of the last lowest()
+  double tolerance_ = 1e-10;                      ///< of the last relax()
   std::vector<double> columns_, small_, sides_;
   std::vector<double> trial_, step_;
   int stride_ = 8;

@@ -150,6 +150,7 @@ Relaxed LoadedRod::relax(const RelaxOptions& options) {
   if (by_length) find_yields();
   work_.finds_length_gradients = by_length;
   searches_ = true;
+  tolerance_ = options.tolerance;
   const Relaxed result = search(options);
   searches_ = false;
   work_.finds_length_gradients = true;

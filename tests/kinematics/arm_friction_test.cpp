@@ -367,6 +367,43 @@ TEST(ArmFriction, RandomPathsEndInEquilibriaOrSayNo) {
   RecordProperty("found", std::to_string(found) + " of " + std::to_string(all));
 }
 
+/// All tendons let out until none pulls, or all pulled in until the arm buckles between its discs.
+TEST(ArmFriction, PathsOfLooseAndOverPulledTendonsAreFollowed) {
+  std::mt19937 gen(78);
+  std::uniform_real_distribution<double> any(0, 1), side(-1, 1);
+  int found = 0, all = 0;
+  for (int round = 0; round < 24; ++round) {
+    Arm arm = two_sections(static_cast<int>(gen() % 3) + 2, 1e-5 * std::pow(30, any(gen)));
+    for (ArmTendon& tendon : arm.tendons) {
+      tendon.friction = 0.1 + 0.5 * any(gen);
+      tendon.outside = 0.5 * any(gen);
+      tendon.pretension = 2 * any(gen);
+      if (round % 6 == 5) tendon.compliance = 0;
+      for (TendonRoute& route : tendon.routes) route.end_angle += 0.4 * side(gen);
+    }
+    arm.gravity = {3 * side(gen), 3 * side(gen), -9.81};
+    std::vector<ArmStep> steps(4);
+    for (ArmStep& step : steps) {
+      const auto kind = gen() % 3;
+      for (std::size_t i = 0; i < 6; ++i)
+        step.commands.push_back({TendonHeld::change, kind == 0   ? 0.004 * any(gen)
+                                                     : kind == 1 ? -0.006 * any(gen)
+                                                                 : 0.005 * side(gen)});
+      for (std::size_t i = 0; i < 3; ++i) step.load.wrench[i] = 0.3 * side(gen);
+    }
+    const ArmOptions options{.model = round % 3 == 0 ? ArmModel::subsegment_rod : ArmModel::subsegment_cc,
+                             .accuracy = 0};
+    ArmWorkspace work(arm);
+    for (const ArmPathPoint& point : arm_follow(arm, steps, options, work)) {
+      found += point.state.report.ok() ? 1 : 0;
+      EXPECT_GE(point.friction_loss, -1e-6) << round;
+    }
+    all += 4;
+  }
+  EXPECT_GE(found, all * 95 / 100);
+  RecordProperty("found", std::to_string(found) + " of " + std::to_string(all));
+}
+
 TEST(ArmFriction, RefusesWhatDoesNotFit) {
   const Arm arm = two_tendons(4, 0.1), other = two_tendons(4, 0.1);
   ArmWorkspace work(arm);

@@ -209,5 +209,28 @@ TEST(ArmRefine, OneSideIsSolvedAsEight) {
   }
 }
 
+/// The weight of a round taper is a square of the place: it is summed to fourth order like all else, so that
+/// the error that a coarse arm tells is the one that it has.
+TEST(ArmRefine, TaperedArmsConvergeWithTheFourthPower) {
+  Arm arm = two_sections(5);
+  for (ArmSection& section : arm.sections) {
+    section.start = round_section({54e9, 54e9 / 2.6, 8000}, 0.0014);
+    section.end = round_section({54e9, 54e9 / 2.6, 8000}, 0.0008);
+    section.round_taper = true;
+  }
+  arm.gravity = {9.81, 0, 0};
+  const auto held = tensions({1, 0, 0, 0.5, 0, 0});
+  const auto tip = [&](int elements) {
+    ArmWorkspace work(arm);
+    return arm_forward(arm, held, {}, {.order = 5, .elements = elements, .accuracy = 0}, work).tip.p;
+  };
+  const auto fine = tip(24);
+  const double at_2 = (tip(2) - fine).norm(), at_4 = (tip(4) - fine).norm();
+  EXPECT_GT(at_2 / at_4, 12);
+  ArmWorkspace work(arm);
+  const ArmState usual = arm_forward(arm, held, {}, {}, work);
+  EXPECT_NEAR(usual.resolution / (usual.tip.p - fine).norm(), 1, 0.2);
+}
+
 }  // namespace arm_refine_test
 }  // namespace sinew::test

@@ -119,7 +119,9 @@ struct ArmRates {
                                    ///< held of each, square
   std::vector<double> answers_by_wrench;  ///< the same by a wrench at the tip, 6 columns
   double margin = 0;  ///< least ratio of the energy's second variation to the backbone's elastic one [1]: 1
-                      ///< of a straight arm without load, 0 where it buckles
+                      ///< of a straight arm without load, 0 where it buckles. Tendons exactly at rest
+                      ///< resist where they would be longer
+  bool margin_is_bound = false;  ///< more than six tendons are exactly at rest: the margin is at least this
 };
 /// Rates of the equilibrium in the workspace.
 /// @param margin whether it is wanted, which takes longer than all the rest

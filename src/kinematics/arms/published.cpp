@@ -8,6 +8,7 @@
 
 #include "base/at.hpp"
 #include "sinew/math/linalg.hpp"
+#include "strain/norm.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using strain::Element;
 using strain::LoadedRod;
 using strain::NodeLoad;
+using strain::norm;
 using strain::RodFrame;
 using strain::RodModel;
 using strain::RodWork;
@@ -208,12 +210,6 @@ class ProjectedRod {
   int reached_ = 0;
 };
 
-double norm(std::span<const double> x) {
-  double sum = 0;
-  for (double v : x) sum += v * v;
-  return std::sqrt(sum);
-}
-
 /// Newton's steps with differences of the residual as derivative, kept while they do; halved where they do
 /// not lower it.
 strain::Relaxed solve_balance(const strain::RelaxOptions& options, ProjectedRod& rod, std::vector<double>& y,
@@ -229,19 +225,7 @@ strain::Relaxed solve_balance(const strain::RelaxOptions& options, ProjectedRod&
   bool known = false;
   for (;; ++result.iterations) {
     result.residual = norm(residual);
-    if (!std::isfinite(result.residual)) {
-      result.status = Status::left_domain;
-      return result;
-    }
-    if (result.residual <= options.tolerance) return result;
-    if (result.iterations >= options.max_iterations) {
-      result.status = Status::iteration_limit;
-      return result;
-    }
-    if (options.stop && options.stop()) {
-      result.status = Status::stopped;
-      return result;
-    }
+    if (result.residual <= options.tolerance || must_end(result, options)) return result;
     const bool fresh = !known;
     if (fresh) {
       const double h = 1e-7 * scale;

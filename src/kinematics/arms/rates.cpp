@@ -91,6 +91,7 @@ ArmRates arm_rates(const Arm& arm, ArmWorkspace& work, bool margin) {
   if (!rod.has_potential()) make_symmetric(rod.model(), rod.work());
   std::vector<double> direction(at(n));
   rates.margin = rod.lowest(direction);
+  rates.margin_is_bound = rod.is_bound();
   rod.work().symmetric = rod.has_potential();
   return rates;
 }

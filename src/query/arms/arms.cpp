@@ -309,6 +309,10 @@ void put_arm_wants(ArmContext& context, const ArmState& state, const ArmWanted& 
     answer["answers_by_wrench"] = Value(MatrixView(rates.answers_by_wrench.data(), m, 6));
   }
   if (margins) answer["buckling_margin"] = rates.margin;
+  if (rates.margin_is_bound)
+    context.add_message(
+        "more than six tendons are exactly at rest and counted as slack: the margin to buckling is at least "
+        "this");
   if (wanted.words.has(Want::margins) && !state.tensions.empty())
     answer["least_tension"] = std::ranges::min(state.tensions);
 }
