@@ -142,7 +142,7 @@ ArmOptions read_arm_options(Question& context) {
   return options;
 }
 
-void read_arm_start(ArmContext& context, ArmOptions& options) {
+void read_arm_start(Question& context, ArmOptions& options) {
   options.from_last = context.continues == Continues::always && context.last != nullptr;
   const auto start = context.query.optional("start");
   if (!start) return;
@@ -333,7 +333,9 @@ void answer_arm_state(Context& asked, Want usual) {
   put_solutions(asked, std::move(solutions));
 }
 
-ArmTarget read_arm_target(ArmContext& context) {
+}  // namespace
+
+ArmTarget read_arm_target(Question& context) {
   ArmTarget target;
   Reader& query = context.query;
   const auto position = query.optional("position"), direction = query.optional("direction");
@@ -345,7 +347,8 @@ ArmTarget read_arm_target(ArmContext& context) {
     target.quaternion = given.quaternion;
     return target;
   }
-  if (!position && !direction) query.required("position", "of the tip; or a direction, or a pose");
+  if (!position && !direction)
+    query.required("position", "of the tip, or the platform; or a direction, or a pose");
   if (position) target.position = position->array<3>(Dimension::length, Range::place());
   if (direction) {
     const auto axis = direction->array<3>(Dimension::number, Range::place());
@@ -355,8 +358,6 @@ ArmTarget read_arm_target(ArmContext& context) {
   }
   return target;
 }
-
-}  // namespace
 
 void answer_arms_forward(Context& context) { answer_arm_state(context, Want::pose); }
 void answer_arms_velocity(Context& context) { answer_arm_state(context, Want::velocity); }
@@ -387,6 +388,8 @@ void answer_arms_statics(Context& asked) {
   measured.held = read_arm_commands(context.robot, context.query);
   const ArmLoad load = read_arm_load(context.robot, context.query);
   read_arm_start(context, options);
+  if (const auto pose = context.query.optional("pose"))
+    pose->fail("not_available", "is for platforms; of an arm give position, where the tip was seen");
   const auto tensions = context.query.optional("measured_tensions"), tip = context.query.optional("position"),
              deviation = context.query.optional("deviation"), force = context.query.optional("force_alone");
   if (!tensions && !tip)

@@ -31,7 +31,9 @@ ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load = {});
 /// `model`, `order`, `elements`, `accuracy` and the bound on iterations.
 ArmOptions read_arm_options(Question& context);
 /// `start`: `last`, where the workspace is.
-void read_arm_start(ArmContext& context, ArmOptions& options);
+void read_arm_start(Question& context, ArmOptions& options);
+/// `pose`, or `position` and `direction`, of a tip or a platform.
+ArmTarget read_arm_target(Question& context);
 
 /// Numbers of all tendons as a list a section.
 Value by_end_section(const Arm& arm, std::span<const double> values);

@@ -65,6 +65,9 @@ void answer_arms_identify(Context& context);
 void answer_arm_legs_forward(Context& context);
 void answer_arm_legs_velocity(Context& context);
 void answer_arm_legs_shape(Context& context);
+void answer_arm_legs_inverse(Context& context);
+void answer_arm_legs_statics(Context& context);
+void answer_arm_legs_track(Context& context);
 void answer_arm_legs_describe(Context& context);
 /// @}
 
