@@ -74,7 +74,7 @@ class PathReader {
       wrench_.push_back(found);
     }
     for (const Column& one : table_.columns)
-      if (one.name.starts_with("sections[") && !is_known(one.name))
+      if ((one.name.starts_with("sections[") || one.name.starts_with("legs[")) && !is_known(one.name))
         fail("unknown_column",
              fmt::format("has the column {}, which is of no tendon of {}; tendons are {} to {}, each with "
                          ".tension[N] or .change[m]",
@@ -127,12 +127,25 @@ class PathReader {
   }
 
   Node by_section(std::vector<Node>& values) const {
+    if (stands_on_arms(robot_)) return by_section_of_legs(values);
     std::vector<std::vector<Node>> lists(robot_.description.find("sections")->items.size());
     const auto& tendons = robot_.description.find("tendons")->items;
     for (std::size_t i = 0; i < values.size(); ++i)
       lists[static_cast<std::size_t>(cli::number(tendons[i], "section"))].push_back(std::move(values[i]));
     std::vector<Node> sections;
     for (std::vector<Node>& list : lists) sections.push_back(list_of(std::move(list)));
+    return list_of(std::move(sections));
+  }
+
+  Node by_section_of_legs(std::vector<Node>& values) const {
+    std::vector<Node> sections;
+    auto next = values.begin();
+    for (const Node& leg : robot_.description.find("legs")->items)
+      for (const Node& section : at(leg, "link.sections")->items) {
+        const auto after = next + static_cast<std::ptrdiff_t>(cli::number(section, "tendons"));
+        sections.push_back(list_of(std::vector<Node>(next, after)));
+        next = after;
+      }
     return list_of(std::move(sections));
   }
 
@@ -148,10 +161,17 @@ class PathReader {
 /// Numbers of all tendons, whatever section they end in.
 std::vector<double> of_tendons(const Node& row, std::string_view key) {
   std::vector<double> values;
+  if (!row.find(key)) return values;
   for (const Node& section : row.find(key)->items)
     for (const Node& value : section.items) values.push_back(value.number);
   return values;
 }
+
+/// What is known of rubbing tendons alone is not told of a platform on legs of sections.
+bool is_told(std::string_view name, bool is_of_legs) {
+  return !is_of_legs || (name != "end_tension" && name != "motor_work" && name != "friction_loss");
+}
+constexpr std::array energy_columns{"potential", "motor_work", "friction_loss"};
 
 }  // namespace
 
@@ -161,7 +181,7 @@ std::optional<Node> read_arm_path(const std::string& file, const OpenRobot& robo
     errors.insert(errors.end(), table.error().begin(), table.error().end());
     return {};
   }
-  if (!is_arm(robot)) {
+  if (!is_arm(robot) && !stands_on_arms(robot)) {
     errors.push_back({"not_available", "--points",
                       fmt::format("{} is no arm: its path is one of poses, --poses or --from and --to.",
                                   robot.description.text("robot"))});
@@ -172,6 +192,7 @@ std::optional<Node> read_arm_path(const std::string& file, const OpenRobot& robo
 
 Table arm_path_table(const Answer& answer, const OpenRobot& robot) {
   Table table;
+  const bool is_of_legs = stands_on_arms(robot);
   table.comments = {fmt::format("sinew {}: track {}", version(), answer.text("robot"))};
   const auto add = [&](std::string_view name, std::string_view unit) {
     table.columns.push_back({std::string(name), std::string(unit), {}});
@@ -181,17 +202,20 @@ Table arm_path_table(const Answer& answer, const OpenRobot& robot) {
   for (const Input& column : pose_columns(true)) add(column.name, column.unit);
   for (const Input& input : robot.inputs)
     for (const TendonColumn& column : tendon_columns)
-      add(fmt::format("{}.{}", input.name, column.name), column.unit);
-  for (const char* name : {"potential", "motor_work", "friction_loss"}) add(name, "J");
+      if (is_told(column.name, is_of_legs)) add(fmt::format("{}.{}", input.name, column.name), column.unit);
+  for (const char* name : energy_columns)
+    if (is_told(name, is_of_legs)) add(name, "J");
   for (const Node& from : answer.find("rows")->items) {
     std::vector<double> row{number(from, "point"), number(from, "part")};
-    const auto pose = pose_values(*from.find("tip"));
+    const auto pose = pose_values(*from.find(is_of_legs ? "pose" : "tip"));
     row.insert(row.end(), pose.begin(), pose.end());
     std::array<std::vector<double>, tendon_columns.size()> states;
     for (std::size_t c = 0; c < states.size(); ++c) states[c] = of_tendons(from, tendon_columns[c].key);
     for (std::size_t i = 0; i < robot.inputs.size(); ++i)
-      for (const auto& state : states) row.push_back(state[i]);
-    for (const char* name : {"potential", "motor_work", "friction_loss"}) row.push_back(number(from, name));
+      for (const auto& state : states)
+        if (!state.empty()) row.push_back(state[i]);
+    for (const char* name : energy_columns)
+      if (is_told(name, is_of_legs)) row.push_back(number(from, name));
     table.add_row(row);
   }
   return table;
@@ -200,15 +224,18 @@ Table arm_path_table(const Answer& answer, const OpenRobot& robot) {
 std::string show_arm_path(const Answer& answer, const OpenRobot& robot) {
   std::vector<std::string> header{"point", "part", "x[mm]", "y[mm]", "z[mm]"};
   for (const Input& input : robot.inputs) header.push_back(heading(input.name + ".tension", "N"));
-  header.push_back(heading("friction_loss", "J"));
+  const bool is_of_legs = stands_on_arms(robot);
+  if (!is_of_legs) header.push_back(heading("friction_loss", "J"));
   TextTable table(std::move(header));
   for (const Node& row : answer.find("rows")->items) {
     std::vector<std::string> cells{fmt::format("{}", number(row, "point")), six_digits(number(row, "part"))};
-    for (const double place : numbers(at(row, "tip.position"))) cells.push_back(cell(place, "m"));
+    for (const double place : numbers(at(row, is_of_legs ? "pose.position" : "tip.position")))
+      cells.push_back(cell(place, "m"));
     for (const double tension : of_tendons(row, "tensions")) cells.push_back(cell(tension, "N"));
-    cells.push_back(cell(number(row, "friction_loss"), "J"));
+    if (!is_of_legs) cells.push_back(cell(number(row, "friction_loss"), "J"));
     table.add(std::move(cells));
   }
+  if (is_of_legs) return table.text();
   return table.text() + fmt::format("\nmotors put in {} mJ, friction took {} mJ\n",
                                     six_digits(1000 * answer.number("motor_work").value_or(0)),
                                     six_digits(1000 * answer.number("friction_loss").value_or(0)));

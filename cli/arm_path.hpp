@@ -1,5 +1,6 @@
 /// @file arm_path.hpp
-/// Paths of arms as tables: what holds the tendons, and what became of it.
+/// Paths of arms, and of platforms on legs of sections, as tables: what holds the tendons, and what became of
+/// it.
 #pragma once
 #include <optional>
 #include <string>

@@ -234,7 +234,8 @@ Expected<Document> request(std::string_view query, const Arguments& arguments, c
   }
   if (is_curve) request.target();
   if (query != "diagram") request.growing_load();
-  if (query == "statics" && arguments.has("pose")) request.member("inverse", make_node(true));
+  if (query == "statics" && arguments.has("pose") && !stands_on_arms(robot))
+    request.member("inverse", make_node(true));
   if (is_curve && arguments.has("all")) request.member("branches", make_node(true));
   request.changes();
   if (!arguments.has("json") && !is_serial(robot) && !is_arm(robot) && !stands_on_arms(robot))

@@ -160,6 +160,13 @@ std::string show_arm_legs(const Answer& answer, const OpenRobot& robot) {
     table.add(std::move(row));
   }
   text += table.text();
+  if (const Node* wrench = answer.find("wrench")) {
+    text +=
+        fmt::format("\nwrench on the platform beside weight and load [N, N m]: {}\n", vector_text(wrench));
+    if (const auto misfit = answer.number("misfit"))
+      text += fmt::format("misfit {}, best known over worst known direction {}\n", six_digits(*misfit),
+                          six_digits(answer.number("condition").value_or(0)));
+  }
   if (answer.find("load")) text += '\n' + show_load(answer);
   text += show_arm_matrix(answer, "U", "twist of the platform by what holds each tendon");
   text += show_arm_matrix(answer, "stiffness", "wrench on the platform by its twist: N/m, N, N m");

@@ -70,7 +70,7 @@ SHAPES = {
     "path_points": {"type": "array", "minItems": 1, "items": {"type": "object", "additionalProperties": False, "properties": {
         "tensions": LISTS, "changes": LISTS, "wrench": NUMBERS, "following": NUMBERS,
         **{name: {**NUMBERS, "minItems": 3, "maxItems": 3} for name in ("distributed", "distributed_following", "gravity")},
-        "loads": {"$ref": "#/properties/loads"}}}},
+        "loads": {"$ref": "#/properties/loads"}, "pose": {"$ref": "#/properties/pose"}}}},
     "names": {"anyOf": [{"type": "string", "pattern": f"^{FITTED}( *,{FITTED})* *$"},
                         {"type": "array", "minItems": 1, "items": {"type": "string", "pattern": f"^{FITTED} *$"}}]},
     "measured_rows": {"anyOf": [{"type": "string", "pattern": "\\n"}, {

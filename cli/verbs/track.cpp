@@ -80,13 +80,14 @@ int run_track(const Arguments& arguments) {
   const auto answer = put("track", arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
   const Node* rows = answer->find("rows");
+  const bool has_points = is_arm(*robot) || stands_on_arms(*robot);
   std::string shown = !rows || rows->items.empty() ? ""
-                      : is_arm(*robot)             ? show_arm_path(*answer, *robot)
+                      : has_points                 ? show_arm_path(*answer, *robot)
                                                    : show_path(*rows, *robot);
   const std::string* file = arguments.text("output");
   if (rows && file) {
     const auto written =
-        write_csv(is_arm(*robot) ? arm_path_table(*answer, *robot) : path_table(*answer, *robot), *file);
+        write_csv(has_points ? arm_path_table(*answer, *robot) : path_table(*answer, *robot), *file);
     if (!written) return refuse_question(arguments, written.error());
     shown = arguments.has("quiet") ? "" : visible_line(*file) + '\n';
   }

@@ -192,7 +192,8 @@ class Verbs:
         the angular.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; of statics of legs of
+                sections where it is held, or with `measured_tensions` was seen; in the plane x, y, phi, in
                 space x, y, z and a quaternion, on the command line also a rotation vector
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
@@ -236,9 +237,10 @@ class Verbs:
             limit (number): how far to look `along` its direction; of a diagram the envelope's size
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
-            position (numbers) [m]: of the tip of a serial robot or an arm; of statics where it was seen;
-                (3,)
-            direction (numbers): in which the tip of a serial robot or an arm points; (3,)
+            position (numbers) [m]: of the tip of a serial robot or an arm, or of the platform on legs of
+                sections; of statics where it was seen; (3,)
+            direction (numbers): in which the tip of a serial robot or an arm points, or the z axis of the
+                platform on legs of sections; (3,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
@@ -325,7 +327,8 @@ class Verbs:
         the angular.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; of statics of legs of
+                sections where it is held, or with `measured_tensions` was seen; in the plane x, y, phi, in
                 space x, y, z and a quaternion, on the command line also a rotation vector
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
@@ -474,7 +477,8 @@ class Verbs:
         the angular.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; of statics of legs of
+                sections where it is held, or with `measured_tensions` was seen; in the plane x, y, phi, in
                 space x, y, z and a quaternion, on the command line also a rotation vector
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
@@ -533,8 +537,8 @@ class Verbs:
                 curve, at most, default 500
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
                 out, section after section, of legs of sections leg after leg; a list each, or an array
-            position (numbers) [m]: of the tip of a serial robot or an arm; of statics where it was seen;
-                (3,)
+            position (numbers) [m]: of the tip of a serial robot or an arm, or of the platform on legs of
+                sections; of statics where it was seen; (3,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
@@ -643,7 +647,8 @@ class Verbs:
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
                 n rows
-            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; of statics of legs of
+                sections where it is held, or with `measured_tensions` was seen; in the plane x, y, phi, in
                 space x, y, z and a quaternion, on the command line also a rotation vector
             independent (dict) [m]: in place of `pose` where hinges hold the platform in planes, or three
                 rods hold it: height and two components of its quaternion; of hinges a mode, too, tilt or
@@ -688,9 +693,10 @@ class Verbs:
                 discs (prb)
             accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
                 1e-6
-            points (number, list, dict or str): the path of an arm, whose tendons rub: a list of tensions or
-                changes, as `forward` takes them, and where they change wrench, following, distributed,
-                distributed_following, loads, gravity
+            points (number, list, dict or str): the path of an arm, whose tendons rub, or of a platform on
+                legs of sections, whose tendons do not: a list of tensions or changes, as `forward` takes
+                them, of such a platform also of a pose, and where they change wrench, following,
+                distributed, distributed_following, loads, gravity
             steps (int): even ones to each point of an arm's path, a row each; default 10; finer ones tell
                 more of what slips first
             from_ (number, list, dict or str) [m, rad]: first pose of a path, of rods with three inputs z,
@@ -834,7 +840,8 @@ class Verbs:
         the angular.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; of statics of legs of
+                sections where it is held, or with `measured_tensions` was seen; in the plane x, y, phi, in
                 space x, y, z and a quaternion, on the command line also a rotation vector
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc

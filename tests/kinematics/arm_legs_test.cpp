@@ -9,77 +9,11 @@
 
 #include "kinematics/arm_legs/arm_group.hpp"
 #include "kinematics/load_problem.hpp"
+#include "tripods.hpp"
 
-namespace sinew {
-namespace {
+namespace sinew::test::arm_legs_test {
 
-Arm two_sections(int sections = 2) {
-  Arm arm;
-  arm.name = "leg";
-  const Material nitinol{.young = 54e9, .shear = 20.8e9, .density = 6450};
-  for (int m = 0; m < sections; ++m) {
-    ArmSection& section = arm.sections.emplace_back();
-    section.length = 0.1;
-    section.start = section.end = round_section(nitinol, 1.4e-3);
-    section.discs = {.count = 5, .mass = 1e-3};
-    for (int k = 0; k < 3; ++k) {
-      const double angle = std::numbers::pi / 2 + 2 * std::numbers::pi * k / 3;
-      const TendonRoute route{8e-3, 8e-3, angle, angle};
-      ArmTendon& tendon = arm.tendons.emplace_back();
-      tendon.routes.assign(static_cast<std::size_t>(m + 1), route);
-      tendon.compliance = 1e-4;
-      tendon.pretension = 0.2;
-    }
-  }
-  return arm;
-}
-
-/// Three legs, turned by a third of a circle each.
-ArmLegs tripod(bool is_clamped, bool weighs = true) {
-  ArmLegs robot;
-  robot.name = "tripod";
-  robot.home.position = {0, 0, 0.2};
-  if (weighs) robot.gravity = {0, 0, -9.81};
-  robot.platform_mass = 0.02;
-  for (int k = 0; k < 3; ++k) {
-    const double angle = 2 * std::numbers::pi * k / 3;
-    ArmLeg& leg = robot.legs.emplace_back();
-    leg.arm = two_sections();
-    leg.base.R = SO3<double>::exp({0, 0, angle});
-    leg.base.p = leg.base.R.rotate({0.08, 0, 0});
-    leg.platform_point = leg.base.R.rotate({0.05, 0, 0});
-    leg.is_clamped = is_clamped;
-    leg.mount = leg.base.R;
-  }
-  return robot;
-}
-
-/// The same with legs that stand upright at home, where tips and platform meet.
-ArmLegs upright(bool is_clamped, bool weighs) {
-  ArmLegs robot = tripod(is_clamped, weighs);
-  for (ArmLeg& leg : robot.legs) leg.platform_point = leg.base.p;
-  return robot;
-}
-
-std::vector<TendonCommand> tensions(std::initializer_list<double> values) {
-  std::vector<TendonCommand> commands;
-  for (const double value : values) commands.push_back({TendonHeld::tension, value});
-  return commands;
-}
-const std::vector<TendonCommand> uneven =
-    tensions({1, 0, .3, 0, .5, 0, .2, .1, 0, 0, .7, 0, 0, .4, .2, .6, 0, .1});
-/// Lengths of some tendons, one of which goes slack, and tensions of others.
-std::vector<TendonCommand> mixed() {
-  auto commands = uneven;
-  for (const std::size_t k : {0U, 1U, 4U, 8U, 10U, 15U})
-    commands[k] = {TendonHeld::change, k == 1 ? 4e-3 : -1e-3 * (1 + static_cast<double>(k % 3))};
-  return commands;
-}
-constexpr ArmLegsLoad pushed{.wrench = {0.05, -0.1, -0.2, 0.004, -0.003, 0.002}};
-
-double distance(const SE3<double>& a, const SE3<double>& b) {
-  return (a.p - b.p).norm() + (a.R.inverse().compose(b.R)).log().norm();
-}
+using namespace tripods;
 
 /// A leg as an arm by itself, in its base's axes.
 ArmState alone(const ArmLegs& robot, const ArmLegsState& state, std::size_t k,
@@ -228,7 +162,7 @@ TEST(ArmLegs, EqualPullsKeepTheTripodSymmetric) {
 TEST(ArmLegs, TwoSectionsThatPullAlikeAreOneOfTwiceTheLength) {
   ArmLegs two = tripod(true), one = tripod(true);
   for (ArmLeg& leg : one.legs) {
-    Arm& arm = leg.arm = two_sections(1);
+    Arm& arm = leg.arm = leg_of_sections(1);
     arm.sections[0].length = 0.2;
     arm.sections[0].discs.count = 10;
   }
@@ -287,7 +221,11 @@ TEST(ArmLegs, StraightLegsThatDoNotStretchAreSolved) {
       double held = 0;
       for (const auto& load : rest.tip_loads) held += load[2];
       EXPECT_NEAR(held, -9.81 * robot.platform_mass, 1e-9);
-      EXPECT_FALSE(arm_legs_rates(robot, work).regular);
+      const ArmLegsRates rates = arm_legs_rates(robot, work);
+      EXPECT_TRUE(rates.regular);
+      EXPECT_FALSE(rates.has_stiffness);
+      EXPECT_NEAR(rates.compliance[14], 0, 1e-12);  // up and down it does not yield, aside it does
+      EXPECT_GT(rates.compliance[0], 1e-4);
       EXPECT_TRUE(arm_legs_forward(robot, uneven, pushed, options, work).report.ok());
     }
   }
@@ -335,5 +273,4 @@ TEST(ArmLegs, BadInputIsRefusedByName) {
   EXPECT_LT(crushed.reached, 1);
 }
 
-}  // namespace
-}  // namespace sinew
+}  // namespace sinew::test::arm_legs_test

@@ -99,10 +99,84 @@ TEST(ArmLegsQuery, LoadsGrowUntilThePlatformGivesWay) {
   EXPECT_NEAR(down, -1, 1e-9);
 }
 
+const Json some_tensions = {{1, 0, 0.3}, {0, 0.5, 0}, {0.2, 0, 0}, {0.1, 0, 0}, {0.7, 0, 0}, {0, 0.4, 0}};
+
+TEST(ArmLegsQuery, WalksStartAtTheLastAndAreCheaper) {
+  std::vector<Json> walk, anew;
+  for (int k = 0; k < 6; ++k) {
+    Json query{{"query", "forward"}, {"tensions", some_tensions}, {"wrench", {0.02 * k, 0, 0, 0, 0, 0}}};
+    anew.push_back(query);
+    query["start"] = "last";
+    walk.push_back(query);
+  }
+  const auto warm = ask(tripod, walk), cold = ask(tripod, anew);
+  int of_warm = 0, of_cold = 0;
+  for (std::size_t k = 0; k < walk.size(); ++k) {
+    ASSERT_EQ(warm[k]["status"], "converged") << warm[k];
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(warm[k]["pose"]["position"][i].get<double>(), cold[k]["pose"]["position"][i].get<double>(),
+                  1e-6);
+    of_warm += warm[k]["iterations"].get<int>(), of_cold += cold[k]["iterations"].get<int>();
+  }
+  EXPECT_LT(of_warm, of_cold);
+}
+
+TEST(ArmLegsQuery, InverseStaticsAndTrackAgreeWithForward) {
+  const Json forward{{"query", "forward"}, {"tensions", some_tensions}, {"wrench", {0.05, 0, -0.1, 0, 0, 0}}};
+  const Json there = ask(tripod, {forward})[0];
+  ASSERT_EQ(there["status"], "converged");
+  const auto near = [](const Json& a, const Json& b, double by) {
+    for (std::size_t i = 0; i < b.size(); ++i) EXPECT_NEAR(a[i].get<double>(), b[i].get<double>(), by) << i;
+  };
+  const Json inverse =
+      ask(tripod, {{{"query", "inverse"}, {"pose", there["pose"]}, {"wrench", forward["wrench"]}}})[0];
+  ASSERT_EQ(inverse["status"], "converged") << inverse;
+  near(inverse["pose"]["position"], there["pose"]["position"], 1e-7);
+  EXPECT_LE(inverse["residual"], 1e-7);
+  // held there with the same tensions it takes the same wrench
+  const Json held =
+      ask(tripod, {{{"query", "statics"}, {"tensions", some_tensions}, {"pose", there["pose"]}}})[0];
+  ASSERT_EQ(held["status"], "converged") << held;
+  near(held["wrench"], forward["wrench"], 1e-4);
+  // and by what tendons of held lengths pull
+  Json pulls = Json::array();
+  for (const Json& section : there["tensions"])
+    for (const Json& tension : section) pulls.push_back(tension);
+  const Json sensed =
+      ask(tripod, {{{"query", "statics"}, {"changes", there["changes"]}, {"measured_tensions", pulls}}})[0];
+  ASSERT_EQ(sensed["status"], "converged") << sensed;
+  near(sensed["wrench"], forward["wrench"], 1e-3);
+  EXPECT_EQ(sensed["covariance"].size(), 6U);
+  EXPECT_GT(sensed["condition"], 1);
+  // a path to the pose, and to the load there
+  const Json path = ask(tripod, {{{"query", "track"},
+                                  {"points",
+                                   {{{"tensions", some_tensions}},
+                                    {{"tensions", some_tensions}, {"wrench", forward["wrench"]}},
+                                    {{"pose", there["pose"]}, {"wrench", forward["wrench"]}}}},
+                                  {"steps", 2}}})[0];
+  ASSERT_EQ(path["status"], "converged") << path;
+  ASSERT_EQ(path["rows"].size(), 6U);
+  near(path["rows"][3]["pose"]["position"], there["pose"]["position"], 1e-6);
+  near(path["pose"]["position"], there["pose"]["position"], 1e-7);
+  const Json ends =
+      ask(tripod, {{{"query", "track"},
+                    {"points", {{{"tensions", some_tensions}}, {{"wrench", {0, 0, -100, 0, 0, 0}}}}},
+                    {"steps", 20}}})[0];
+  EXPECT_EQ(ends["status"], "stalled");
+  EXPECT_EQ(ends["reached"]["point"], 1);
+}
+
 TEST(ArmLegsQuery, WhatIsNotBuiltIsNamed) {
-  EXPECT_EQ(status({{"query", "inverse"}}), "unsupported");
-  EXPECT_EQ(status({{"query", "statics"}}), "unsupported");
-  EXPECT_EQ(status({{"query", "track"}}), "unsupported");
+  EXPECT_EQ(status({{"query", "inverse"}}), "missing_key");
+  EXPECT_EQ(status({{"query", "statics"}}), "missing_key");
+  EXPECT_EQ(status({{"query", "track"}}), "missing_key");
+  EXPECT_EQ(status({{"query", "track"}, {"points", Json::array()}}), "empty_list");
+  EXPECT_EQ(
+      status({{"query", "track"}, {"points", {{{"loads", Json::array()}, {"tensions", Json::array()}}}}}),
+      "unsupported");
+  EXPECT_EQ(status({{"query", "inverse"}, {"position", {0, 0, 1}}}), "unreachable");
+  EXPECT_EQ(status({{"query", "statics"}, {"position", {0, 0, 0.19}}, {"force_alone", false}}), "bad_input");
   for (const char* key : {"following", "distributed", "loads", "all"})
     EXPECT_EQ(status({{"query", "forward"}, {key, {1, 2, 3}}}), "unsupported") << key;
   EXPECT_EQ(status({{"query", "forward"}, {"balance", "projected"}}), "unsupported");

@@ -34,8 +34,10 @@ struct ArmLegsState {
   double reached = 0;     ///< share of inputs and loads up to which there was an equilibrium that holds [1]
 };
 
-/// The equilibrium into which the rest grows as inputs and loads do, together from nothing.
-/// `bad_input`: commands of another number, a tension below 0. `unsupported`: what is not built for legs.
+/// The equilibrium into which the rest grows as inputs and loads do, together from nothing. With
+/// `options.from_last` the one into which that of the workspace changes, as what is held and loads do;
+/// where there is none, or the way to it gives way, that of the rest, and in the latter case `message` says
+/// so. `bad_input`: commands of another number, a tension below 0. `unsupported`: what is not built for legs.
 /// `stalled`: up to `reached` of inputs and loads there was an equilibrium that holds, and beyond none was
 /// found: it may have given way.
 /// @param commands of every tendon, those of leg 0 first, in it those of the first section first
@@ -43,14 +45,92 @@ SINEW_API const ArmLegsState& arm_legs_forward(const ArmLegs& robot, std::span<c
                                                const ArmLegsLoad& load, const ArmOptions& options,
                                                ArmLegsWorkspace& work);
 
+/// A platform that is held at a pose.
+struct ArmLegsHeld {
+  /// An equilibrium under the wrench below; `stable` is of the platform when it is let go under it.
+  ArmLegsState state;
+  std::array<double, 6> wrench{};  ///< that holds it beside weight and load, base axes [N, N m]
+};
+/// The wrench that holds the platform at a pose, tendons and loads being given. It goes there evenly from
+/// where it is without a wrench, or with `options.from_last` from the last equilibrium, what is held going
+/// along. `stalled`: the legs do not reach the pose, or one of them gives way before; or stiffness is not
+/// finite.
+/// @param pose of the platform, base axes [m]
+/// @param commands of every tendon, those of leg 0 first, in it those of the first section first
+SINEW_API ArmLegsHeld arm_legs_hold(const ArmLegs& robot, const SE3<double>& pose,
+                                    std::span<const TendonCommand> commands, const ArmLegsLoad& load,
+                                    const ArmOptions& options, ArmLegsWorkspace& work);
+
 /// Derivatives of an equilibrium, its platform's twist in base axes, linear first [m, rad].
 struct ArmLegsRates {
-  bool regular = false;                ///< the platform's stiffness is finite and not singular
+  bool regular = false;  ///< the equilibrium is no fold
+  /// The platform's stiffness is finite: else a leg that does not stretch is straight.
+  bool has_stiffness = false;
   std::array<double, 36> stiffness{};  ///< wrench by twist, inputs held, rows first [N/m, N, N m]
-  std::vector<double> J;               ///< twist by what is held of every tendon, 6 rows [m/N or 1]
+  std::vector<double> compliance;      ///< twist by wrench, inputs held, 6 × 6 [m/N, rad/N, rad/(N m)]
+  std::vector<double> J;        ///< twist by what is held of every tendon, 6 rows [m/N or 1, rad/N or rad/m]
+  std::vector<double> answers;  ///< of each tendon what is not held (change [m] or tension [N]) by what is
+                                ///< held of each, square
+  std::vector<double> answers_by_wrench;  ///< the same by a wrench on the platform, 6 columns
 };
 /// Of the equilibrium in the workspace.
 SINEW_API ArmLegsRates arm_legs_rates(const ArmLegs& robot, ArmLegsWorkspace& work);
+
+/// Tensions that hold the platform at a target.
+struct ArmLegsInverse {
+  Report report;       ///< its residual is what the platform is off: place over the longest leg, angle [rad]
+  ArmLegsState state;  ///< with tensions, and the changes for motors that hold those
+};
+/// Tensions ≥ 0 that hold the platform at a target. What they are free in goes into the least sum of their
+/// squares, of those nearby: there may be less elsewhere.
+/// `unreachable`: the nearest that was found is in `state`.
+/// @param target of the platform's reference point and axes; what is not given is free
+SINEW_API ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target,
+                                          const ArmLegsLoad& load, const ArmInverseOptions& options,
+                                          ArmLegsWorkspace& work);
+
+/// What is measured of a platform on arms; what is not a number is not known.
+struct ArmLegsMeasurement {
+  std::vector<TendonCommand> held = {};  ///< of every tendon, taken as exact
+  std::vector<double> answers = {};      ///< of every tendon what is not held: tension [N] or change [m]
+  std::optional<std::array<double, 3>> position = {};    ///< of the platform, base axes [m]
+  std::optional<std::array<double, 4>> quaternion = {};  ///< of its axes, [w, x, y, z] [1]
+  double tension_deviation = 0.05;                       ///< standard deviation of tensions [N]
+  double change_deviation = 2e-5;                        ///< of changes [m]
+  double position_deviation = 5e-4;                      ///< of a coordinate of the position [m]
+  double angle_deviation = 5e-3;                         ///< of the axes about each of them [rad]
+};
+/// A wrench on the platform that explains what was measured.
+struct ArmLegsSensed {
+  Report report;                        ///< `singular` where the measurement does not tell
+  std::array<double, 6> wrench{};       ///< beside weight and load, base axes [N, N m]
+  std::array<double, 36> covariance{};  ///< of it; of a force alone the moment's part is 0 [N², N² m, N² m²]
+  double misfit = 0;                    ///< root mean square of what stays, in standard deviations [1]
+  /// How much better the best known direction of the wrench is known than the worst, moments over the longest
+  /// leg [1].
+  double condition = 0;
+  ArmLegsState state;
+};
+/// Where the pose is known exactly, arm_legs_hold() tells the wrench at once.
+/// @param force_alone no moment is looked for
+SINEW_API ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& measured,
+                                       const ArmLegsLoad& load, bool force_alone, const ArmOptions& options,
+                                       ArmLegsWorkspace& work);
+
+/// What a path comes to.
+struct ArmLegsStep {
+  std::vector<TendonCommand> commands = {};  ///< of every tendon; of a step to a pose they do not count
+  ArmLegsLoad load = {};
+  std::optional<SE3<double>> pose = {};  ///< which tensions hold, each row with the least [m]
+  int divisions =
+      1;  ///< into how many equal parts the way to it is divided, ≥ 1; each has a point of its own
+};
+/// From the equilibrium with nothing pulled, under the first step's weight without its wrench, or where
+/// `options.arm.from_last` says so from the last one: to each step inputs, loads and a pose change evenly. A
+/// point for every division; the answer ends with the first that was not reached, whose report says why and
+/// whose state is the last on the way there.
+SINEW_API std::vector<ArmLegsState> arm_legs_track(const ArmLegs& robot, std::span<const ArmLegsStep> steps,
+                                                   const ArmInverseOptions& options, ArmLegsWorkspace& work);
 
 /// Where a growing load ended.
 struct ArmLegsLoadPath {

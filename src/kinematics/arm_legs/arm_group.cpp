@@ -454,16 +454,85 @@ int ArmGroup::unstable() const {
   return count;
 }
 
+bool ArmGroup::answers(Matrix& twists, Matrix& by_tendon) const {
+  const Vector unit = units();
+  const Matrix matrix = whole();
+  if (!matrix.allFinite()) return false;
+  const Eigen::FullPivLU<Matrix> lu(matrix);
+  if (!(std::abs(lu.matrixLU().diagonal().tail(1)[0]) > 1e-13 * lu.maxPivot())) return false;
+  Matrix sides = Matrix::Zero(unit.size(), feeds_ + 6);
+  sides.bottomRightCorner(6, 6).setIdentity();
+  Eigen::Index next = 0;
+  for (const Leg& leg : legs_) {
+    for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
+      const Tendon& tendon = leg.tendons[i];
+      const Eigen::Index column = leg.first_feed + static_cast<int>(i);
+      if (tendon.is_taut)
+        sides(next + tendon.place, column) = 1;
+      else if (tendon.command.held == TendonHeld::tension)
+        sides.block(next, column, leg.unknowns(), 1) = leg.B * leg.HL.col(tendon.place);
+    }
+    next += leg.unknowns();
+  }
+  sides = (unit.asDiagonal() * sides).eval();
+  const Matrix found = unit.asDiagonal() * lu.solve(sides).eval();
+  twists = found.bottomRows(6);
+  by_tendon.setZero(feeds_, feeds_ + 6);
+  next = 0;
+  for (const Leg& leg : legs_) {
+    const Matrix forces = found.middleRows(next, leg.unknowns());
+    for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
+      const Tendon& tendon = leg.tendons[i];
+      const Eigen::Index row = leg.first_feed + static_cast<int>(i);
+      if (tendon.is_taut) {
+        by_tendon.row(row) = forces.row(tendon.place);
+      } else if (tendon.command.held == TendonHeld::tension) {
+        const auto way = leg.L.row(tendon.place);
+        by_tendon.row(row) = -(way * leg.HB) * forces;
+        for (std::size_t j = 0; j < leg.tendons.size(); ++j)
+          if (leg.tendons[j].command.held == TendonHeld::tension)
+            by_tendon(row, leg.first_feed + static_cast<int>(j)) -= way.dot(leg.HL.col(leg.tendons[j].place));
+        by_tendon(row, row) -= tendon.compliance;
+      }
+    }
+    next += leg.unknowns();
+  }
+  return found.allFinite();
+}
+
+/// A backbone that does not stretch and is straight holds its tip: its stiffness has no bound.
+bool ArmGroup::factor_compliance(Leg& leg) const {
+  const Vector unit = units_of(leg);
+  const Eigen::FullPivLU<Matrix> lu(unit.asDiagonal() * leg.D * unit.asDiagonal());
+  if (!(std::abs(lu.matrixLU().diagonal().tail(1)[0]) > 1e-13 * lu.maxPivot())) return false;
+  leg.D_inverse = unit.asDiagonal() * lu.inverse() * unit.asDiagonal();
+  return leg.D_inverse.allFinite();
+}
+
+bool ArmGroup::plan_held() {
+  planned_.setZero();
+  planned_size_ = 0;
+  for (Leg& leg : legs_) {
+    if (!factor_compliance(leg)) return false;
+    leg.du = leg.D_inverse * leg.r;
+    const double bent = (leg.y0 - leg.HB * leg.du).norm() / std::sqrt(rod(leg).model().energy_scale);
+    planned_size_ = worst_of(planned_size_, bent);
+  }
+  return std::isfinite(planned_size_);
+}
+
+int ArmGroup::unstable_held() const {
+  int count = 0;
+  for (int k = 0; k < limbs(); ++k) count += unstable_with_tip_held(k)[0];
+  return count;
+}
+
 bool ArmGroup::linearise() {
   if (!factor_limbs()) return false;
   stiffness_.setZero();
   residual_ = balance_;
   for (Leg& leg : legs_) {
-    const Vector unit = units_of(leg);
-    const Eigen::FullPivLU<Matrix> lu(unit.asDiagonal() * leg.D * unit.asDiagonal());
-    // A backbone that does not stretch and is straight holds its tip: its stiffness has no bound.
-    if (!(std::abs(lu.matrixLU().diagonal().tail(1)[0]) > 1e-13 * lu.maxPivot())) return false;
-    leg.D_inverse = unit.asDiagonal() * lu.inverse() * unit.asDiagonal();
+    if (!factor_compliance(leg)) return false;
     stiffness_ += curvature(leg) + leg.X.transpose() * leg.D_inverse * leg.X;
     residual_ -= leg.X.transpose() * (leg.D_inverse * leg.r);
   }

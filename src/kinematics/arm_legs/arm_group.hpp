@@ -75,7 +75,25 @@ class ArmGroup final : public LimbGroup<Spatial> {
   double planned_size() const { return planned_size_; }  ///< shapes as angles, turns of the platform [rad]
   void move_as_planned();
   int unstable() const;  ///< directions of the whole, after `factor_limbs`; −1 where it is not finite
+  /// Of an equilibrium, after `factor_limbs`: columns by what is held of every tendon, then by a wrench on
+  /// the platform. It needs no finite stiffness. False where the whole is singular.
+  bool answers(Matrix& twists, Matrix& by_tendon) const;
   /// @}
+
+  /// @name With the platform held: its balance does not count
+  /// @{
+  void set_platform(const Frame& platform) { platform_ = platform; }
+  bool plan_held();           ///< after `factor_limbs`: false where a leg alone is singular
+  int unstable_held() const;  ///< directions of the legs, after `factor_limbs`
+  /// Of the platform on its legs beyond weight and wrench, after `evaluate`.
+  Wrench wrench_missing() const { return -balance_; }
+  /// @}
+
+  /// What would hold the tendon now as the command is to hold it.
+  double held_as(int feed, TendonHeld held) const {
+    return held == TendonHeld::tension ? tension(feed) : change(feed);
+  }
+  const std::array<double, 3>& gravity() const { return gravity_; }
 
   /// Whether the wrench has a moment, which in base axes has no potential.
   bool has_potential() const { return wrench_.tail<3>().isZero(0); }
@@ -130,6 +148,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   void advance(Leg& leg, const Frame& after, Numbers by_input);
   Mat<double, 6, 6> curvature(const Leg& leg) const;
   double force_unit(const Leg& leg) const;
+  bool factor_compliance(Leg& leg) const;
   Matrix whole() const;  ///< of all unknown forces and the platform, without dimension
   Vector units() const;
   Vector units_of(const Leg& leg) const;

@@ -8,19 +8,11 @@
 #include <limits>
 
 #include "base/at.hpp"
-#include "kinematics/arm_legs/arm_group.hpp"
+#include "kinematics/arm_legs/legs_work.hpp"
 #include "kinematics/load_problem.hpp"
+#include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
-
-struct ArmLegsWorkspace::Impl {
-  std::shared_ptr<const char> robot;
-  ArmModel model = ArmModel::subsegment_rod;
-  int order = -2, elements = 0;
-  std::vector<std::unique_ptr<ArmGroup>> levels;
-  int level = -1;  ///< of the last equilibrium; −1: none was
-  ArmLegsState state;
-};
 
 ArmLegsWorkspace::ArmLegsWorkspace(const ArmLegs& robot) : impl_(std::make_unique<Impl>()) {
   impl_->robot = robot.identity;
@@ -44,20 +36,19 @@ std::span<const Finer> finer_bases(const ArmOptions& options) {
   return {};
 }
 
-struct Found {
-  Status status = Status::converged;
-  int iterations = 0;
-  double residual = 0;
-};
+/// By more a step of Newton's method may not turn a leg or the platform [rad].
+constexpr double longest_turn = 0.6;
 
 /// Newton's method at one share of inputs and loads.
-Found iterate(ArmGroup& group, const ArmOptions& options, double longest_step, const StopToken& stop,
-              int spent) {
-  Found found;
+/// @param is_held the platform stays where it is
+LegsFound iterate(ArmGroup& group, bool is_held, const ArmOptions& options, const StopToken& stop,
+                  int spent) {
+  LegsFound found;
   double before = std::numeric_limits<double>::infinity();
   bool is_slow = false;
   for (;; ++found.iterations) {
     found.residual = group.evaluate();
+    if (is_held) found.residual = group.limb_error();
     if (!std::isfinite(found.residual)) {
       found.status = Status::left_domain;
       return found;
@@ -79,11 +70,11 @@ Found iterate(ArmGroup& group, const ArmOptions& options, double longest_step, c
       found.status = Status::stalled;
       return found;
     }
-    if (!group.factor_limbs() || !group.plan()) {
+    if (!group.factor_limbs() || !(is_held ? group.plan_held() : group.plan())) {
       found.status = Status::singular;
       return found;
     }
-    if (group.planned_size() > longest_step) {
+    if (group.planned_size() > longest_turn) {
       found.status = Status::stalled;
       return found;
     }
@@ -91,18 +82,21 @@ Found iterate(ArmGroup& group, const ArmOptions& options, double longest_step, c
   }
 }
 
-/// Inputs and loads grow together from nothing, in steps that adapt.
-/// @param reached share of them up to which an equilibrium that holds was found
-Found grow(ArmGroup& group, const ArmOptions& options, const StopToken& stop, double& reached) {
-  constexpr double least = 1e-4, longest_turn = 0.6;
-  Found all;
+/// All that `put` sets changes from a share of it to the whole, in steps that adapt; the group is at an
+/// equilibrium of the first share.
+/// @param put what acts, and where a held platform is, at a share of the way
+/// @param reached share of it up to which an equilibrium that holds was found
+template <class Put>
+LegsFound grow(ArmGroup& group, const Put& put, bool is_held, const ArmOptions& options,
+               const StopToken& stop, double& reached, int parts = 0) {
+  constexpr double least = 1e-4;
+  LegsFound all;
   LimbState last = group.state();
   double step = 1;
-  reached = group.share();
-  while (true) {
+  for (int part = 1;; ++part) {
     const double share = std::min(1.0, reached + step);
-    group.set_share(share);
-    const Found found = iterate(group, options, longest_turn, stop, all.iterations);
+    put(share);
+    const LegsFound found = iterate(group, is_held, options, stop, all.iterations);
     all.iterations += found.iterations;
     all.residual = found.residual;
     if (found.status == Status::stopped || found.status == Status::iteration_limit) {
@@ -110,42 +104,114 @@ Found grow(ArmGroup& group, const ArmOptions& options, const StopToken& stop, do
       return all;
     }
     const bool is_found = found.status == Status::converged && group.mounts_hold();
-    if (is_found && group.factor_limbs() && group.unstable() == 0) {
+    if (is_found && group.factor_limbs() && (is_held ? group.unstable_held() : group.unstable()) == 0) {
       reached = share;
       if (share == 1) return all;
       group.save(last);
       if (found.iterations <= 6) step *= 2;
-      continue;
+    } else {
+      group.restore(last);
+      step *= 0.5;
     }
+    if (step >= least && (parts == 0 || part < parts)) continue;
+    put(reached);
     group.restore(last);
-    step *= 0.5;
-    if (step < least) {
-      group.evaluate();
-      all.status = Status::stalled;
-      return all;
-    }
+    group.evaluate();
+    all.status = Status::stalled;
+    return all;
   }
 }
 
-FixedText<240> misfit_of(const ArmLegs& robot, std::span<const TendonCommand> commands,
-                         const ArmLegsLoad& load) {
-  const auto text = [](const std::string& words) { return FixedText<240>(words); };
+ArmGroup::Frame between(const ArmGroup::Frame& from, const Vec<double, 6>& twist, double share) {
+  return {from.p + share * twist.head<3>(),
+          SO3<double>::exp(Vec3<double>(share * twist.tail<3>())).compose(from.R)};
+}
+
+std::string_view words_for(Status status, bool is_held) {
+  if (is_held && status == Status::stalled)
+    return "legs held the platform up to {:.2f} % of the way to the pose, and beyond they do not reach it or "
+           "give way";
+  switch (status) {
+    case Status::stalled:
+      return "inputs and loads led to an equilibrium that holds up to {:.2f} % of them, and beyond to none";
+    case Status::iteration_limit:
+      return "the bound on iterations was met at {:.2f} % of inputs and loads";
+    case Status::stopped:
+      return "stopped at {:.2f} % of inputs and loads";
+    default:
+      return "";
+  }
+}
+
+/// With the platform free; to where it is to be held it goes from there, since legs at rest are straight and
+/// would be pressed on a straight way to it.
+LegsFound begin_at_rest(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
+                        const StopToken& stop, double& reached) {
+  reached = 0;
+  if (problem.held) group.set_problem(problem.commands, ArmGroup::Wrench::Zero(), problem.gravity);
+  LegsFound found = grow(
+      group, [&](double share) { group.set_share(share); }, false, options, stop, reached);
+  if (!problem.held) return found;
+  if (found.status != Status::converged) {
+    reached = 0;
+    return found;
+  }
+  const int spent = found.iterations;
+  found = walk_legs(group, problem, options, stop, reached);
+  found.iterations += spent;
+  return found;
+}
+
+ArmGroup::Wrench missing_of(ArmGroup& group) {
+  group.evaluate();
+  return group.wrench_missing();
+}
+
+/// By how much polynomials that are finer move the platform, or would if it were free [m].
+double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_held) {
+  const auto &a = coarse.platform(), &b = fine.platform();
+  if (!is_held) return (a.p - b.p).norm() + coarse.radius() * (a.R.inverse().compose(b.R)).log().norm();
+  const ArmGroup::Wrench change = missing_of(fine) - missing_of(coarse);
+  ArmGroup::Matrix twists, by_tendon;
+  if (!fine.factor_limbs() || !fine.answers(twists, by_tendon)) return 0;  // at a fold nothing is told
+  const Vec<double, 6> twist = twists.rightCols(6) * change;
+  return twist.head<3>().norm() + coarse.radius() * twist.tail<3>().norm();
+}
+
+}  // namespace
+
+LegsProblem::LegsProblem(const ArmLegs& robot, std::span<const TendonCommand> tendons,
+                         const ArmLegsLoad& load)
+    : commands(tendons.begin(), tendons.end()),
+      gravity(load.gravity.value_or(robot.gravity)) {
+  std::copy(load.wrench.begin(), load.wrench.end(), wrench.begin());
+}
+
+Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands, const ArmLegsLoad& load,
+                   const ArmOptions& options, const ArmLegsWorkspace& work) {
+  const auto bad = [](const std::string& words) {
+    return Report{Status::bad_input, 0, 0, FixedText<240>(words)};
+  };
+  if (work.impl().robot != robot.identity) return bad("the workspace is for another robot");
   if (commands.size() != robot.tendons())
-    return text(fmt::format("the legs have {} tendons, found {} commands", robot.tendons(), commands.size()));
+    return bad(fmt::format("the legs have {} tendons, found {} commands", robot.tendons(), commands.size()));
   for (std::size_t i = 0; i < commands.size(); ++i) {
-    if (!std::isfinite(commands[i].value)) return text(fmt::format("what holds tendon {} is not finite", i));
+    if (!std::isfinite(commands[i].value)) return bad(fmt::format("what holds tendon {} is not finite", i));
     if (commands[i].held == TendonHeld::tension && commands[i].value < 0)
-      return text(fmt::format("tendon {} would have to push with {} N: tensions are at least 0", i,
-                              -commands[i].value));
+      return bad(fmt::format("tendon {} would have to push with {} N: tensions are at least 0", i,
+                             -commands[i].value));
   }
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::ranges::all_of(load.wrench, finite) ||
       (load.gravity && !std::ranges::all_of(*load.gravity, finite)))
-    return text("a load is not finite");
-  return {};
+    return bad("a load is not finite");
+  if (options.balance != ArmBalance::energy)
+    return {Status::unsupported, 0, 0,
+            FixedText<240>("legs balance by energy alone in this version: leave balance out")};
+  return {Status::converged, 0, 0, {}};
 }
 
-void write_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState& state) {
+void write_legs_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState& state) {
   state.platform = group.platform();
   const int count = group.feeds();
   for (auto* values : {&state.tensions, &state.changes, &state.slack}) values->resize(at(count));
@@ -162,86 +228,164 @@ void write_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState& stat
   state.energy = group.potential();
 }
 
-std::string_view words_for(Status status) {
-  switch (status) {
-    case Status::stalled:
-      return "inputs and loads led to an equilibrium that holds up to {:.2f} % of them, and beyond to none";
-    case Status::iteration_limit:
-      return "the bound on iterations was met at {:.2f} % of inputs and loads";
-    case Status::stopped:
-      return "stopped at {:.2f} % of inputs and loads";
-    default:
-      return "";
-  }
+double legs_size(const ArmLegs& robot) {
+  double size = 0;
+  for (const ArmLeg& leg : robot.legs) size = std::max(size, leg.arm.length());
+  return size;
 }
 
-}  // namespace
-
-const ArmLegsState& arm_legs_forward(const ArmLegs& robot, std::span<const TendonCommand> commands,
-                                     const ArmLegsLoad& load, const ArmOptions& options,
-                                     ArmLegsWorkspace& work) {
-  ArmLegsWorkspace::Impl& impl = work.impl();
-  ArmLegsState& state = impl.state;
-  state = {};
-  const auto refuse = [&](Status status, FixedText<240> text) -> const ArmLegsState& {
-    state.report = {status, 0, 0, text};
-    return state;
+LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
+                    const StopToken& stop, double& reached, int parts) {
+  LegsProblem on_the_way = problem;
+  std::vector<double> first;
+  for (std::size_t i = 0; i < problem.commands.size(); ++i)
+    first.push_back(group.held_as(static_cast<int>(i), problem.commands[i].held));
+  const ArmGroup::Wrench wrench = group.wrench();
+  const std::array<double, 3> gravity = group.gravity();
+  const ArmGroup::Frame from = group.platform();
+  const Vec<double, 6> way = problem.held ? twist_between(from, *problem.held) : Vec<double, 6>::Zero();
+  const auto put = [&](double share) {
+    for (std::size_t i = 0; i < first.size(); ++i)
+      on_the_way.commands[i].value = std::lerp(first[i], problem.commands[i].value, share);
+    for (std::size_t i = 0; i < 3; ++i)
+      on_the_way.gravity[i] = std::lerp(gravity[i], problem.gravity[i], share);
+    const ArmGroup::Wrench acts = (1 - share) * wrench + share * problem.wrench;
+    group.set_problem(on_the_way.commands, acts, on_the_way.gravity);
+    if (problem.held) group.set_platform(between(from, way, share));
   };
-  if (impl.robot != robot.identity)
-    return refuse(Status::bad_input, FixedText<240>("the workspace is for another robot"));
-  if (const auto text = misfit_of(robot, commands, load); !text.empty())
-    return refuse(Status::bad_input, text);
-  if (options.balance != ArmBalance::energy)
-    return refuse(Status::unsupported,
-                  FixedText<240>("legs balance by energy alone in this version: leave balance out"));
+  reached = 0;
+  return grow(group, put, problem.held.has_value(), options, stop, reached, parts);
+}
+
+Report LegsWalk::go(const LegsProblem& problem, bool from_last) {
+  ArmLegsWorkspace::Impl& impl = work_.impl();
+  if (!from_last || !before_ || !impl.has_last()) {
+    ArmOptions options = options_;
+    options.from_last = from_last;
+    solve_legs(robot_, problem, options, work_, first_);
+    before_.reset();
+    if (impl.has_last()) before_ = problem;
+    return impl.state.report;
+  }
+  ArmGroup& group = impl.group();
+  group.save(state_);
+  ArmOptions options = options_;
+  options.max_iterations = std::min(options.max_iterations, 60);
+  double reached = 0;
+  const LegsFound found = walk_legs(group, problem, options, work_.stop, reached, 12);
+  if (found.status == Status::converged) {
+    before_ = problem;
+  } else {
+    group.set_problem(before_->commands, before_->wrench, before_->gravity);
+    group.restore(state_);
+    group.evaluate();
+  }
+  write_legs_state(robot_, group, impl.state);
+  impl.state.report = {Status::converged, found.iterations, found.residual, {}};
+  impl.state.resolution = 0;
+  return {found.status, found.iterations, found.residual, {}};
+}
+
+void LegsWalk::keep() {
+  if (before_) kept_.emplace(Kept{*before_, work_.impl().group().state(), work_.impl().level});
+}
+
+void LegsWalk::bring_back() {
+  if (!kept_) return;
+  ArmLegsWorkspace::Impl& impl = work_.impl();
+  impl.level = kept_->level;
+  ArmGroup& group = impl.group();
+  group.set_problem(kept_->problem.commands, kept_->problem.wrench, kept_->problem.gravity);
+  group.restore(kept_->state);
+  const double residual = group.evaluate();
+  before_ = kept_->problem;
+  write_legs_state(robot_, group, impl.state);
+  impl.state.report = {Status::converged, 0, residual, {}};
+  impl.state.resolution = 0;
+  impl.state.reached = 1;
+  impl.state.stable = true;
+}
+
+void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
+                ArmLegsWorkspace& work, LegsEnd end) {
+  ArmLegsWorkspace::Impl& impl = work.impl();
+  const bool is_held = problem.held.has_value();
   const auto bases = finer_bases(options);
   const std::size_t count = std::max<std::size_t>(1, bases.size());
-  if (impl.model != options.model || impl.order != options.order || impl.elements != options.elements ||
-      impl.levels.size() != count) {
+  const bool is_same = impl.model == options.model && impl.order == options.order &&
+                       impl.elements == options.elements && impl.levels.size() == count;
+  const bool goes_on = options.from_last && is_same && impl.has_last();
+  if (!is_same) {
     impl.levels.clear();
     impl.levels.resize(count);
     impl.model = options.model, impl.order = options.order, impl.elements = options.elements;
   }
-  impl.level = -1;
+  ArmLegsState& state = impl.state;
+  state = {};
+  const auto put = [&](ArmGroup& group) {
+    group.set_problem(problem.commands, problem.wrench, problem.gravity);
+  };
   const auto ready = [&](std::size_t level) -> ArmGroup& {
     ArmBasis basis{options.model, options.order, options.elements};
     if (!bases.empty()) basis.order = bases[level].order, basis.elements = bases[level].elements;
     // Anew: the rest of a group is where its shapes are those at rest.
     impl.levels[level] = std::make_unique<ArmGroup>(robot, basis);
-    ArmGroup::Wrench wrench;
-    std::copy(load.wrench.begin(), load.wrench.end(), wrench.begin());
-    impl.levels[level]->set_problem(commands, wrench, load.gravity.value_or(robot.gravity));
+    put(*impl.levels[level]);
     return *impl.levels[level];
   };
-  ArmGroup* group = &ready(0);
-  impl.level = 0;
-  Found found = grow(*group, options, work.stop, state.reached);
-  double size = 0;
-  for (int k = 0; k < group->limbs(); ++k) size = std::max(size, group->length(k));
-  const double wanted = options.accuracy * size;
-  for (std::size_t next = 1; found.status == Status::converged && next < bases.size(); ++next) {
-    ArmGroup& finer = ready(next);
+  LegsFound found;
+  ArmGroup* group = nullptr;
+  std::size_t level = 0;
+  bool began_anew = false;
+  if (goes_on) {
+    // One level coarser: the next one then says how far both are off.
+    level = at(std::max(0, impl.level - 1));
+    group = impl.levels[level].get();
+    if (const ArmGroup& last = impl.group(); group != &last) {
+      std::vector<TendonCommand> commands = problem.commands;
+      for (std::size_t i = 0; i < commands.size(); ++i)
+        commands[i].value = last.held_as(static_cast<int>(i), commands[i].held);
+      group->carry_over_from(last);
+      group->set_problem(commands, last.wrench(), last.gravity());
+      group->set_share(1);
+    }
+    found = walk_legs(*group, problem, options, work.stop, state.reached);
+    began_anew =
+        end != LegsEnd::on_the_way && found.status != Status::converged && found.status != Status::stopped;
+  }
+  if (!goes_on || began_anew) {
+    const int spent = found.iterations;
+    level = 0;
+    group = &ready(0);
+    found = begin_at_rest(*group, problem, options, work.stop, state.reached);
+    found.iterations += spent;
+  }
+  impl.level = static_cast<int>(level);
+  const double wanted = options.accuracy * legs_size(robot);
+  for (std::size_t next = level + 1;
+       found.status == Status::converged && next < bases.size() && end != LegsEnd::coarse; ++next) {
+    const bool is_there = goes_on && !began_anew && impl.levels[next];
+    ArmGroup& finer = is_there ? *impl.levels[next] : ready(next);
+    if (is_there) put(finer);
     finer.carry_over_from(*group);
     finer.set_share(1);
-    Found again = iterate(finer, options, 0.6, work.stop, found.iterations);
-    if (again.status == Status::converged && (!finer.factor_limbs() || finer.unstable() != 0))
+    LegsFound again = iterate(finer, is_held, options, work.stop, found.iterations);
+    if (again.status == Status::converged &&
+        (!finer.factor_limbs() || (is_held ? finer.unstable_held() : finer.unstable()) != 0))
       again.status = Status::unstable;
-    found.iterations += again.iterations;
+    again.iterations += found.iterations;
     if (again.status != Status::converged) {  // what the coarser one found is none of the finer
-      const double spent = found.iterations;
       found = again;
-      found.iterations = static_cast<int>(spent);
       impl.level = static_cast<int>(next);
       group = &finer;
       break;
     }
-    const auto &a = group->platform(), &b = finer.platform();
-    const double moved = (a.p - b.p).norm() + group->radius() * (a.R.inverse().compose(b.R)).log().norm();
+    found = again;
+    const double moved = moved_by(*group, finer, is_held);
     const double by = static_cast<double>(bases[next].elements) / bases[next - 1].elements;
     const double ratio = by * by * by * by;
     group = &finer;
     impl.level = static_cast<int>(next);
-    found.residual = again.residual;
     state.resolution = moved / (ratio - 1);
     if (state.resolution <= wanted) break;
   }
@@ -250,9 +394,13 @@ const ArmLegsState& arm_legs_forward(const ArmLegs& robot, std::span<const Tendo
   state.report.residual = found.residual;
   if (found.status == Status::unstable || found.status == Status::singular)
     state.report.message = FixedText<240>("what coarser polynomials found does not hold by finer ones");
-  else
+  else if (found.status != Status::converged)
     state.report.message =
-        FixedText<240>(fmt::format(fmt::runtime(words_for(found.status)), 100 * state.reached));
+        FixedText<240>(fmt::format(fmt::runtime(words_for(found.status, is_held)), 100 * state.reached));
+  else if (began_anew)
+    state.report.message = FixedText<240>(
+        "from the last equilibrium none that holds was found on the way here; this is what the rest grows "
+        "into");
   if (state.report.ok() && state.resolution > 10 * wanted) {
     state.report.status = Status::stalled;
     state.report.message = FixedText<240>(fmt::format(
@@ -260,29 +408,73 @@ const ArmLegsState& arm_legs_forward(const ArmLegs& robot, std::span<const Tendo
         state.resolution));
   }
   state.stable = found.status == Status::converged;
-  write_state(robot, *group, state);
+  if (is_held && state.stable) {
+    group->set_wrench(problem.wrench + missing_of(*group));
+    group->evaluate();
+    state.stable = group->factor_limbs() && group->unstable() == 0;
+  }
+  write_legs_state(robot, *group, state);
+}
+
+const ArmLegsState& arm_legs_forward(const ArmLegs& robot, std::span<const TendonCommand> commands,
+                                     const ArmLegsLoad& load, const ArmOptions& options,
+                                     ArmLegsWorkspace& work) {
+  ArmLegsState& state = work.impl().state;
+  if (const Report misfit = legs_misfit(robot, commands, load, options, work); !misfit.ok()) {
+    state = {};
+    state.report = misfit;
+    return state;
+  }
+  solve_legs(robot, {robot, commands, load}, options, work);
   return state;
+}
+
+ArmLegsHeld arm_legs_hold(const ArmLegs& robot, const SE3<double>& pose,
+                          std::span<const TendonCommand> commands, const ArmLegsLoad& load,
+                          const ArmOptions& options, ArmLegsWorkspace& work) {
+  ArmLegsHeld held;
+  ArmLegsState& state = work.impl().state;
+  Report misfit = legs_misfit(robot, commands, load, options, work);
+  if (misfit.ok() && !(pose.p.allFinite() && pose.R.matrix().allFinite()))
+    misfit = {Status::bad_input, 0, 0, FixedText<240>("the pose is not finite")};
+  if (!misfit.ok()) {
+    state = {};
+    state.report = misfit;
+    held.state = state;
+    return held;
+  }
+  LegsProblem problem(robot, commands, load);
+  problem.held = pose;
+  solve_legs(robot, problem, options, work);
+  held.state = state;
+  if (!state.report.ok()) return held;
+  const ArmGroup::Wrench wrench = work.impl().group().wrench() - problem.wrench;
+  std::copy(wrench.begin(), wrench.end(), held.wrench.begin());
+  return held;
 }
 
 ArmLegsRates arm_legs_rates(const ArmLegs&, ArmLegsWorkspace& work) {
   ArmLegsWorkspace::Impl& impl = work.impl();
   ArmLegsRates rates;
-  if (impl.level < 0 || !impl.state.report.ok()) return rates;
-  ArmGroup& group = *impl.levels[at(impl.level)];
+  if (!impl.has_last()) return rates;
+  ArmGroup& group = impl.group();
   group.evaluate();
-  if (!group.linearise()) return rates;
+  ArmGroup::Matrix twists, by_tendon;
+  rates.regular = group.factor_limbs() && group.answers(twists, by_tendon);
+  if (!rates.regular) return rates;
+  const auto flat = [](const ArmGroup::Matrix& matrix) {
+    return std::vector<double>(matrix.data(), matrix.data() + matrix.size());
+  };
   const int count = group.feeds();
-  rates.regular = true;
+  rates.J = flat(twists.leftCols(count));
+  rates.compliance = flat(twists.rightCols(6));
+  rates.answers = flat(by_tendon.leftCols(count));
+  rates.answers_by_wrench = flat(by_tendon.rightCols(6));
+  rates.has_stiffness = group.linearise();
+  if (!rates.has_stiffness) return rates;
   const auto stiffness = group.stiffness();
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j) rates.stiffness[at(6 * i + j)] = stiffness(i, j);
-  rates.J.assign(at(6 * count), 0.0);
-  for (int k = 0; k < count; ++k) {
-    const ArmGroup::Wrench side = -group.input_wrench_jacobian(k);
-    ArmGroup::Twist twist;
-    group.factors().solve(side.data(), twist.data());
-    for (int i = 0; i < 6; ++i) rates.J[at(i * count + k)] = twist[i];
-  }
   return rates;
 }
 
@@ -293,9 +485,8 @@ ArmLegsLoadPath arm_legs_follow_load(const ArmLegs& robot, const std::array<doub
   path.state = impl.state;
   ArmGroup::Wrench load;
   std::copy(direction.begin(), direction.end(), load.begin());
-  if (impl.level < 0 || !impl.state.report.ok() || !load.allFinite() || load.isZero(0) || !(limit > 0))
-    return path;
-  ArmGroup& group = *impl.levels[at(impl.level)];
+  if (!impl.has_last() || !load.allFinite() || load.isZero(0) || !(limit > 0)) return path;
+  ArmGroup& group = impl.group();
   group.evaluate();
   if (!group.linearise()) return path;
   auto places = places_of<Spatial>(group);
@@ -307,7 +498,7 @@ ArmLegsLoadPath arm_legs_follow_load(const ArmLegs& robot, const std::array<doub
   path.definite_until = grown.definite_until;
   impl.state.report.residual = group.evaluate();
   impl.state.report.iterations += grown.iterations;
-  write_state(robot, group, impl.state);
+  write_legs_state(robot, group, impl.state);
   path.state = impl.state;
   return path;
 }

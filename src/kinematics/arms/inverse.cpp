@@ -1,315 +1,81 @@
-#include <fmt/format.h>
+#include "kinematics/arms/inverse_search.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-/// What the tip is off, and its rates by tensions: rows of places over the arm's length and of angles.
-struct Rows {
-  std::vector<double> off, J;  ///< J: rows × tendons
+class PulledArm final : public PulledBody {
+ public:
+  PulledArm(const Arm& arm, const ArmLoad& load, const ArmOptions& options, ArmWorkspace& work)
+      : arm_(arm),
+        load_(load),
+        options_(options),
+        work_(work) {}
+  Report pull(const std::vector<double>& tensions, bool from_last) override {
+    ArmOptions options = options_;
+    options.from_last = from_last;
+    return arm_forward(arm_, as_commands(tensions), load_, options, work_).report;
+  }
+  const SE3<double>& tip() const override { return work_.impl().state.tip; }
+  bool rates(std::vector<double>& J) override {
+    ArmRates rates = arm_rates(arm_, work_, false);
+    J = std::move(rates.J);
+    return rates.regular;
+  }
+  std::vector<double> last_tensions() const override {
+    return work_.impl().level >= 0 ? work_.impl().state.tensions : std::vector<double>();
+  }
+
+ private:
+  const Arm& arm_;
+  const ArmLoad& load_;
+  ArmOptions options_;
+  ArmWorkspace& work_;
 };
-
-/// Twist in base axes from the tip to the target, of what the target gives.
-std::vector<double> tip_off(const ArmTarget& target, const SE3<double>& tip, double length) {
-  std::vector<double> off;
-  if (target.position)
-    for (std::size_t i = 0; i < 3; ++i)
-      off.push_back(((*target.position)[i] - tip.p[static_cast<int>(i)]) / length);
-  if (target.quaternion) {
-    const SO3<double> wanted = SE3<double>::from({{0, 0, 0}, *target.quaternion}).R;
-    const Vec3<double> turn = wanted.compose(tip.R.inverse()).log();
-    for (int i = 0; i < 3; ++i) off.push_back(turn[i]);
-  } else if (target.direction) {
-    Vec3<double> to((*target.direction)[0], (*target.direction)[1], (*target.direction)[2]);
-    to /= to.norm();
-    const Vec3<double> z = tip.rotate({0, 0, 1});
-    Vec3<double> axis = cross(z, to);
-    const double sine = axis.norm(), angle = std::atan2(sine, dot(z, to));
-    if (sine > 1e-12)
-      axis *= angle / sine;
-    else if (angle > 1)
-      axis = tip.rotate({angle, 0, 0});
-    // the two turns across the axis
-    const Vec3<double> x = tip.rotate({1, 0, 0}), y = tip.rotate({0, 1, 0});
-    off.push_back(dot(axis, x));
-    off.push_back(dot(axis, y));
-  }
-  return off;
-}
-
-Rows rows_of(const ArmTarget& target, const ArmState& state, const ArmRates& rates, double length) {
-  Rows rows;
-  rows.off = tip_off(target, state.tip, length);
-  const std::size_t m = at(rates.tendons);
-  const auto add = [&](const Vec3<double>& by, std::size_t first, double scale) {
-    for (std::size_t k = 0; k < m; ++k) {
-      double sum = 0;
-      for (std::size_t i = 0; i < 3; ++i) sum += by[static_cast<int>(i)] * rates.J[(first + i) * m + k];
-      rows.J.push_back(scale * sum);
-    }
-  };
-  if (target.position)
-    for (int i = 0; i < 3; ++i) add(Vec3<double>(i == 0, i == 1, i == 2), 0, 1 / length);
-  if (target.quaternion)
-    for (int i = 0; i < 3; ++i) add(Vec3<double>(i == 0, i == 1, i == 2), 3, 1);
-  else if (target.direction) {
-    add(state.tip.rotate({1, 0, 0}), 3, 1);
-    add(state.tip.rotate({0, 1, 0}), 3, 1);
-  }
-  return rows;
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
-}
-
-/// Of all 0 ≤ x ≤ most that make A x = b as nearly as can be the one nearest to `centre`: an active set on
-/// (AᵀA + small) x = Aᵀb + small centre.
-std::vector<double> bounded_once(const std::vector<double>& A, const std::vector<double>& b,
-                                 const std::vector<double>& centre, double most) {
-  const std::size_t m = centre.size();
-  double size = 0;
-  for (const double a : A) size += a * a;
-  const double small = 1e-7 * size / static_cast<double>(m) + 1e-300;
-  std::vector<double> normal(m * m, 0.0), side(m, 0.0), x(m, 0.0);
-  for (std::size_t i = 0; i < m; ++i) {
-    side[i] = small * centre[i];
-    for (std::size_t r = 0; r < b.size(); ++r) side[i] += A[r * m + i] * b[r];
-    for (std::size_t j = 0; j < m; ++j)
-      for (std::size_t r = 0; r < b.size(); ++r) normal[i * m + j] += A[r * m + i] * A[r * m + j];
-    normal[i * m + i] += small;
-  }
-  enum class At { low, free, high };
-  std::vector<At> state(m, At::free);
-  for (int round = 0; round < 100; ++round) {
-    std::vector<std::size_t> free;
-    for (std::size_t i = 0; i < m; ++i)
-      if (state[i] == At::free) free.push_back(i);
-    const std::size_t n = free.size();
-    std::vector<double> small_matrix(n * n), right(n), found(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      right[i] = side[free[i]];
-      for (std::size_t j = 0; j < m; ++j)
-        if (state[j] == At::high) right[i] -= normal[free[i] * m + j] * most;
-      for (std::size_t j = 0; j < n; ++j) small_matrix[i * n + j] = normal[free[i] * m + free[j]];
-    }
-    // Cholesky's method
-    for (std::size_t k = 0; k < n; ++k) {
-      for (std::size_t j = 0; j < k; ++j)
-        small_matrix[k * n + k] -= small_matrix[k * n + j] * small_matrix[k * n + j];
-      small_matrix[k * n + k] = std::sqrt(std::max(small_matrix[k * n + k], 1e-300));
-      for (std::size_t i = k + 1; i < n; ++i) {
-        for (std::size_t j = 0; j < k; ++j)
-          small_matrix[i * n + k] -= small_matrix[i * n + j] * small_matrix[k * n + j];
-        small_matrix[i * n + k] /= small_matrix[k * n + k];
-      }
-    }
-    found = right;
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < i; ++j) found[i] -= small_matrix[i * n + j] * found[j];
-      found[i] /= small_matrix[i * n + i];
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      for (std::size_t j = i + 1; j < n; ++j) found[i] -= small_matrix[j * n + i] * found[j];
-      found[i] /= small_matrix[i * n + i];
-    }
-    bool changed = false;
-    for (std::size_t i = 0; i < m; ++i) x[i] = state[i] == At::high ? most : 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      x[free[i]] = found[i];
-      if (found[i] < 0) state[free[i]] = At::low, changed = true;
-      if (found[i] > most) state[free[i]] = At::high, changed = true;
-    }
-    if (changed) continue;
-    std::size_t worst = m;
-    double gain = 1e-12 * size;
-    for (std::size_t i = 0; i < m; ++i) {
-      if (state[i] == At::free) continue;
-      double slope = side[i];
-      for (std::size_t j = 0; j < m; ++j) slope -= normal[i * m + j] * x[j];
-      if (state[i] == At::high) slope = -slope;
-      if (slope > gain) gain = slope, worst = i;
-    }
-    if (worst == m) break;
-    state[worst] = At::free;
-  }
-  for (double& value : x) value = std::clamp(value, 0.0, most);
-  return x;
-}
-
-/// The same without what the weight of the centre leaves of A x − b: it is taken back.
-std::vector<double> bounded_least_squares(const std::vector<double>& A, const std::vector<double>& b,
-                                          const std::vector<double>& centre, double most) {
-  const std::size_t m = centre.size();
-  std::vector<double> asked = b, x;
-  for (int round = 0; round < 4; ++round) {
-    x = bounded_once(A, asked, centre, most);
-    for (std::size_t r = 0; r < b.size(); ++r) {
-      double left = b[r];
-      for (std::size_t i = 0; i < m; ++i) left -= A[r * m + i] * x[i];
-      asked[r] += left;
-    }
-  }
-  return x;
-}
-
-std::vector<TendonCommand> as_commands(const std::vector<double>& tensions) {
-  std::vector<TendonCommand> commands;
-  for (const double tension : tensions) commands.push_back({TendonHeld::tension, tension});
-  return commands;
-}
-
-/// The tension of a tendon that bends its section by about one radian.
-double usual_tension(const Arm& arm) {
-  double least = 1e300;
-  for (std::size_t m = 0; m < arm.sections.size(); ++m)
-    for (const ArmTendon& tendon : arm.tendons) {
-      if (tendon.section() != static_cast<int>(m)) continue;
-      const ArmSection& section = arm.sections[m];
-      least = std::min(least, section.start.bending_x / (section.length * tendon.routes[m].start_radius));
-    }
-  return least;
-}
-
-std::string_view target_misfit(const Arm& arm, const ArmTarget& target) {
-  if (arm.tendons.empty()) return "the arm has no tendons that could move its tip";
-  if (!target.position && !target.direction && !target.quaternion) return "the target is empty";
-  if (target.direction && target.quaternion) return "the target has a direction and a quaternion; keep one";
-  double sum = 0;
-  if (target.position)
-    for (const double x : *target.position) sum += x;
-  if (target.direction) {
-    double square = 0;
-    for (const double x : *target.direction) square += x * x;
-    if (!(square > 0)) return "the direction has no length";
-    sum += square;
-  }
-  if (target.quaternion) {
-    double square = 0;
-    for (const double x : *target.quaternion) square += x * x;
-    if (!(square > 0)) return "the quaternion has no length";
-    sum += square;
-  }
-  if (!std::isfinite(sum)) return "the target is not finite";
-  return {};
-}
 
 }  // namespace
 
 ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const ArmLoad& load,
                        const ArmInverseOptions& options, ArmWorkspace& work) {
   ArmInverse best;
-  best.report.residual = 1e300;
-  if (const auto text = target_misfit(arm, target); !text.empty()) {
-    best.report = {Status::bad_input, 0, 0, FixedText<240>(text)};
+  const auto answer = [&](const Report& report) {
+    best.report = report;
     best.state = work.impl().state;
+    return best;
+  };
+  const std::string_view text =
+      arm.tendons.empty() ? "the arm has no tendons that could move its tip" : target_misfit(target);
+  if (!text.empty()) {
+    answer({Status::bad_input, 0, 0, FixedText<240>(text)});
     best.state.report = best.report;
     return best;
   }
-  const std::size_t m = arm.tendons.size();
-  const double length = arm.length(), usual = usual_tension(arm),
-               most = options.most_tension > 0 ? options.most_tension : 1e3 * usual;
-  constexpr double near = 1e-3;  // of the arm's length, or rad: what a step along the target may be off
-  int iterations = 0;
-  for (int start = 0; start < options.starts && best.report.residual > options.precision; ++start) {
-    std::vector<double> tensions(m, 0.0);
-    // every tendon in turn, then pairs of neighbours further on
-    if (start > 0)
-      for (std::size_t i = 0; i < m; ++i)
-        if ((i * 7 + static_cast<std::size_t>(start) * 5) % m < 1 + m / 3)
-          tensions[i] = std::min(most, usual * (0.4 + 0.15 * start));
-    ArmOptions each = options.arm;
-    each.from_last = start == 0 && options.arm.from_last;
-    if (each.from_last && work.impl().level >= 0)
-      for (std::size_t i = 0; i < m; ++i) tensions[i] = std::clamp(work.impl().state.tensions[i], 0.0, most);
-    ArmState state = arm_forward(arm, as_commands(tensions), load, each, work);
-    if (state.report.status == Status::bad_input || state.report.status == Status::stopped) {
-      best.report = state.report;
-      best.state = state;
-      return best;
-    }
-    if (!state.report.is_solved()) continue;
-    each.from_last = true;
-    double error = largest(tip_off(target, state.tip, length)), radius = 0.5 * usual;
-    const auto squares = [](const std::vector<double>& values) {
-      double sum = 0;
-      for (const double value : values) sum += value * value;
-      return sum;
-    };
-    // To the target by the nearest tensions; along it to the least; and to the target again, exactly.
-    enum class Way { there, least, exact } way = Way::there;
-    for (int k = 0; k < 100; ++k, ++iterations) {
-      if (way == Way::there && error < near) way = Way::least, radius = std::max(radius, 0.1 * usual);
-      if (way == Way::exact && error <= options.precision) break;
-      const ArmRates rates = arm_rates(arm, work, false);
-      if (!rates.regular) break;
-      const Rows rows = rows_of(target, state, rates, length);
-      std::vector<double> b = rows.off;
-      for (std::size_t r = 0; r < b.size(); ++r)
-        for (std::size_t i = 0; i < m; ++i) b[r] += rows.J[r * m + i] * tensions[i];
-      const bool least = way == Way::least;
-      std::vector<double> next =
-          bounded_least_squares(rows.J, b, least ? std::vector<double>(m, 0.0) : tensions, most);
-      double longest = 0;
-      for (std::size_t i = 0; i < m; ++i) longest = std::max(longest, std::abs(next[i] - tensions[i]));
-      if (least && longest < 1e-4 * usual) {
-        way = Way::exact;
-        continue;
-      }
-      if (longest < 1e-13 * usual) break;
-      const double share = std::min(1.0, radius / longest);
-      for (std::size_t i = 0; i < m; ++i) next[i] = tensions[i] + share * (next[i] - tensions[i]);
-      const ArmState trial = arm_forward(arm, as_commands(next), load, each, work);
-      if (trial.report.status == Status::stopped) {
-        best.report = trial.report;
-        best.state = state;
-        return best;
-      }
-      const double after = trial.report.is_solved() ? largest(tip_off(target, trial.tip, length)) : 1e300;
-      if (least ? after < near && squares(next) < squares(tensions) : after < error) {
-        if (share < 1) radius *= 2;
-        tensions = next;
-        state = trial;
-        error = after;
-      } else {
-        radius = 0.4 * std::min(radius, longest);
-        state = arm_forward(arm, as_commands(tensions), load, each, work);
-        if (radius < 1e-8 * usual) break;
-        if (least && radius < 1e-3 * usual) way = Way::exact, radius = usual;
-      }
-    }
-    if (error < best.report.residual && state.report.is_solved()) {
-      best.state = state;
-      best.report.residual = error;
-      best.report.status = state.report.status;
-      best.report.message = state.report.message;
-    }
-  }
-  best.report.iterations = iterations;
-  if (!(best.report.residual < 1e300)) {
-    best.report = {Status::stalled, iterations, 0, FixedText<240>("no equilibrium was found to begin from")};
-    best.state = work.impl().state;
-  } else {
-    // the workspace is left in what is answered
-    ArmOptions last = options.arm;
-    last.from_last = true;
-    best.state = arm_forward(arm, as_commands(best.state.tensions), load, last, work);
-    best.report.residual = largest(tip_off(target, best.state.tip, length));
-    if (best.report.residual > 10 * options.precision) {
-      best.report.status = Status::unreachable;
-      best.report.message = FixedText<240>(fmt::format(
-          "no tensions{} were found that take the tip there; the nearest is off by {:.2e} of the arm's "
-          "length or rad",
-          options.most_tension > 0 ? fmt::format(" up to {:.4g} N", options.most_tension) : std::string(),
-          best.report.residual));
-    }
+  const double length = arm.length(), usual = usual_tension(arm);
+  PulledArm body(arm, load, options.arm, work);
+  const FoundTensions found =
+      search_tensions(target,
+                      {.tendons = arm.tendons.size(),
+                       .length = length,
+                       .usual = usual,
+                       .most = options.most_tension > 0 ? options.most_tension : 1e3 * usual,
+                       .precision = options.precision,
+                       .starts = options.starts,
+                       .from_last = options.arm.from_last},
+                      body);
+  const Status status = found.report.status;
+  if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
+    return answer(found.report);
+  if (!(found.report.residual < 1e300))
+    return answer({Status::stalled, found.report.iterations, 0,
+                   FixedText<240>("no equilibrium was found to begin from")});
+  // the workspace is left in what is answered
+  body.pull(found.tensions, true);
+  answer(found.report);
+  best.report.residual = off_target(target, best.state.tip, length);
+  if (best.report.residual > 10 * options.precision) {
+    best.report.status = Status::unreachable;
+    best.report.message = unreachable_words("tip", "the arm's", options.most_tension, best.report.residual);
   }
   return best;
 }

@@ -1,7 +1,11 @@
-/// Handlers of queries to platforms on arms: forward, velocity, shape, describe.
+/// Handlers of queries to platforms on arms: forward, inverse, velocity, shape, statics, track, describe.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include <fmt/format.h>
+
+#include "io/quantity.hpp"
 #include "io/read_pose.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/sampler.hpp"
@@ -24,8 +28,7 @@ std::vector<std::size_t> tendon_counts_of(const ArmLegs& robot) {
 constexpr std::string_view not_yet = "is not available of legs of sections in this version; leave it out";
 constexpr Lack lacking[] = {
     {"following", not_yet}, {"distributed", not_yet}, {"distributed_following", not_yet},
-    {"loads", not_yet},     {"all", not_yet},         {"start", not_yet},
-    {"balance", not_yet}};
+    {"loads", not_yet},     {"all", not_yet},         {"balance", not_yet}};
 
 void put_legs_shape(Context& context, const ArmLegs& robot, int samples) {
   ArmPicture picture;
@@ -43,89 +46,335 @@ void put_legs_shape(Context& context, const ArmLegs& robot, int samples) {
   answer["discs"] = std::move(picture.discs);
 }
 
-void put_legs_state(Context& context, const ArmLegs& robot, const ArmLegsState& state) {
-  context.report(state.report);
+/// Numbers of an equilibrium, of the answer or of a row of it.
+void put_legs_numbers(Value& answer, const ArmLegs& robot, const ArmLegsState& state) {
+  const auto counts = tendon_counts_of(robot);
+  answer["pose"] = pose_value(AnyPose(spatial_pose(state.platform)));
+  answer["tensions"] = by_end_section(counts, state.tensions);
+  answer["changes"] = by_end_section(counts, state.changes);
+  answer["slack"] = by_end_section(counts, state.slack);
+  put_number(answer, "potential", state.energy);
+}
+
+/// @param report of the question; its message comes first
+void put_legs_state(Context& context, const ArmLegs& robot, const ArmLegsState& state, const Report& report) {
+  context.report(report);
   if (std::ranges::any_of(robot.legs, [](const ArmLeg& leg) { return has_friction(leg.arm); }))
     context.add_message("tendons are taken as if they did not rub");
   if (state.report.status == Status::bad_input || state.report.status == Status::unsupported) return;
-  const auto counts = tendon_counts_of(robot);
+  if (state.tensions.empty()) return;  // refused before
   Value& answer = context.answer;
-  answer["pose"] = pose_value(AnyPose(spatial_pose(state.platform)));
+  put_legs_numbers(answer, robot, state);
   Value legs = Value::list();
   for (const auto& load : state.tip_loads)
     legs.push_back({{"force", {load[0], load[1], load[2]}}, {"moment", {load[3], load[4], load[5]}}});
   answer["legs"] = std::move(legs);
-  answer["tensions"] = by_end_section(counts, state.tensions);
-  answer["changes"] = by_end_section(counts, state.changes);
-  answer["slack"] = by_end_section(counts, state.slack);
   answer["stable"] = state.stable;
   answer["reached"] = state.reached;
-  put_number(answer, "potential", state.energy);
-  put_number(answer, "residual", state.report.residual);
-  answer["iterations"] = state.report.iterations;
+  put_number(answer, "residual", report.residual);
+  answer["iterations"] = report.iterations;
   if (state.resolution > 0) answer["resolution"] = state.resolution;
 }
 
-struct ArmLegsForward {
+ArmOptions read_legs_options(Context& context) {
+  ArmOptions options = read_arm_options(context);
+  if (!context.max_iterations) options.max_iterations = 2000;  // of all steps in which inputs and loads grow
+  return options;
+}
+
+/// @param load what holds where they are not given
+ArmLegsLoad read_legs_load(Reader& place, ArmLegsLoad load = {}) {
+  if (const auto wrench = place.optional("wrench")) {
+    const auto numbers = read_wrench<Spatial>(*wrench);
+    std::copy(numbers.begin(), numbers.end(), load.wrench.begin());
+  }
+  if (const auto gravity = place.optional("gravity")) {
+    const Vec3<double> g = read_gravity(*gravity);
+    load.gravity = {g[0], g[1], g[2]};
+  }
+  return load;
+}
+
+struct LegsWanted {
+  Wants words;
+  int samples = 0;
+};
+LegsWanted read_legs_wants(Context& context) {
+  LegsWanted wanted{read_wants(context)};
+  wanted.samples = read_samples(context, wanted.words, 60, 2000);
+  return wanted;
+}
+
+/// The workspace, once the question is read.
+ArmLegsWorkspace& legs_work(Context& context) {
+  ArmLegsWorkspace& work = *context.work.arm_legs;
+  work.stop = context.work.stop;
+  return work;
+}
+
+/// Of the equilibrium in the workspace.
+void put_legs_wants(Context& context, const ArmLegs& robot, const ArmLegsState& state,
+                    const LegsWanted& wanted) {
+  if (!state.report.is_solved()) return;
+  if (wanted.words.has(Want::shape)) put_legs_shape(context, robot, wanted.samples);
+  const bool velocity = wanted.words.has(Want::velocity), stiffness = wanted.words.has(Want::stiffness);
+  if (!velocity && !stiffness) return;
+  const ArmLegsRates rates = arm_legs_rates(robot, *context.work.arm_legs);
+  if (!rates.regular) {
+    context.add_message("the equilibrium is a fold: it has no rates");
+    return;
+  }
+  const auto count = static_cast<Eigen::Index>(robot.tendons());
+  Value& answer = context.answer;
+  if (velocity) {
+    answer["U"] = Value(MatrixView(rates.J.data(), 6, count));
+    answer["answer_rates"] = Value(MatrixView(rates.answers.data(), count, count));
+  }
+  if (!stiffness) return;
+  if (rates.has_stiffness)
+    answer["stiffness"] = Value(MatrixView(rates.stiffness.data(), 6, 6));
+  else
+    context.add_message("the stiffness is not finite: a leg that does not stretch is straight");
+  answer["compliance"] = Value(MatrixView(rates.compliance.data(), 6, 6));
+  answer["answers_by_wrench"] = Value(MatrixView(rates.answers_by_wrench.data(), count, 6));
+}
+
+struct LegsForward {
   ArmOptions options;
   std::vector<TendonCommand> commands;
   ArmLegsLoad load;
   std::optional<Until<Spatial>> until;
-  Wants wanted;
-  int samples = 0;
+  LegsWanted wanted;
 };
 
-ArmLegsForward read_legs(Context& context) {
-  ArmLegsForward asked;
-  asked.options = read_arm_options(context);
-  if (!context.max_iterations)
-    asked.options.max_iterations = 2000;  // of all steps in which inputs and loads grow
+LegsForward read_legs(Context& context) {
+  LegsForward asked;
+  asked.options = read_legs_options(context);
   asked.commands = read_arm_commands(tendon_counts_of(*context.robot.arm_legs()), context.query);
-  if (const auto wrench = context.query.optional("wrench")) {
-    const auto numbers = read_wrench<Spatial>(*wrench);
-    std::copy(numbers.begin(), numbers.end(), asked.load.wrench.begin());
-  }
-  if (const auto gravity = context.query.optional("gravity")) {
-    const Vec3<double> g = read_gravity(*gravity);
-    asked.load.gravity = {g[0], g[1], g[2]};
-  }
+  asked.load = read_legs_load(context.query);
+  read_arm_start(context, asked.options);
   if (context.ask == Ask::forward) asked.until = read_until<Spatial>(context);
-  asked.wanted = read_wants(context);
-  asked.samples = read_samples(context, asked.wanted, 60, 2000);
+  asked.wanted = read_legs_wants(context);
   return asked;
 }
 
-void answer_legs(Context& context, const ArmLegsForward& asked) {
-  const auto& [options, commands, load, until, wanted, samples] = asked;
+void answer_legs(Context& context, const LegsForward& asked) {
+  const auto& [options, commands, load, until, wanted] = asked;
   const ArmLegs& robot = *context.robot.arm_legs();
-  ArmLegsWorkspace& work = *context.work.arm_legs;
-  work.stop = context.work.stop;
+  ArmLegsWorkspace& work = legs_work(context);
   const ArmLegsState& state = arm_legs_forward(robot, commands, load, options, work);
   if (until && state.report.ok()) {
     std::array<double, 6> direction{};
     std::copy(until->direction.begin(), until->direction.end(), direction.begin());
     const ArmLegsLoadPath path = arm_legs_follow_load(robot, direction, until->limit, work);
-    put_legs_state(context, robot, path.state);
+    put_legs_state(context, robot, path.state, path.state.report);
     put_growth(context.answer, path);
     if (path.end == LoadEnd::stopped) context.answer["status"] = to_string(Status::stopped);
   } else {
-    put_legs_state(context, robot, state);
+    put_legs_state(context, robot, state, state.report);
   }
-  if (!state.report.is_solved()) return;
-  if (wanted.has(Want::shape)) put_legs_shape(context, robot, samples);
-  if (!wanted.has(Want::velocity) && !wanted.has(Want::stiffness)) return;
-  const ArmLegsRates rates = arm_legs_rates(robot, work);
-  if (!rates.regular) {
-    context.add_message(
-        "the platform has no rates: its stiffness is singular, or not finite, as of straight legs that do "
-        "not "
-        "stretch");
+  put_legs_wants(context, robot, state, wanted);
+}
+
+/// The points of a path; what a point does not say is as at the point before, of loads as in the question.
+std::vector<ArmLegsStep> read_legs_points(Context& context, const ArmLegs& robot) {
+  constexpr int default_steps = 10, max_steps = 10000;
+  Reader& query = context.query;
+  const ArmLegsLoad load = read_legs_load(query);
+  std::vector<ArmLegsStep> path;
+  const auto list = query.required("points", "the path: [{tensions, changes or pose, wrench, ...}, ...]");
+  for (Reader& point : list.items()) {
+    if (!point.is(Node::Kind::map)) {
+      point.refuse("wrong_type", "give a map: {tensions: [[1, 0, 0]]}.");
+      continue;
+    }
+    ArmLegsStep step = path.empty() ? ArmLegsStep{} : path.back();
+    const bool has_inputs = point.has("tensions") || point.has("changes");
+    if (has_inputs) {
+      step.commands = read_arm_commands(tendon_counts_of(robot), point);
+      step.pose.reset();
+    }
+    if (auto pose = point.optional("pose")) {
+      if (has_inputs) pose->fail("ambiguous", "the point gives a pose and what holds tendons; keep one");
+      step.pose = SE3<double>::from(read_spatial_pose(std::move(*pose)));
+    } else if (!has_inputs && path.empty()) {
+      point.required("tensions", "of the first point; or changes, or a pose");
+    }
+    for (const char* key : {"following", "distributed", "distributed_following", "loads"})
+      if (const auto asked = point.optional(key))
+        asked->fail("not_available", "is not available of legs of sections in this version; leave it out");
+    step.load = read_legs_load(point, load);
+    point.close();
+    path.push_back(std::move(step));
+  }
+  if (list.is(Node::Kind::list) && list.items().empty())
+    list.fail("empty_list", "a path needs at least one point");
+  int steps = default_steps;
+  if (const auto given = query.optional("steps")) steps = given->integer(Range::between(1, max_steps));
+  const auto rows = path.size() * static_cast<std::size_t>(steps);
+  if (rows > static_cast<std::size_t>(max_path_samples))
+    list.fail("path_too_long",
+              fmt::format("{} points of {} steps are {} rows; an answer has at most {}: follow the path in "
+                          "parts, with start: last",
+                          path.size(), steps, rows, max_path_samples));
+  for (ArmLegsStep& step : path) step.divisions = steps;
+  return path;
+}
+
+struct LegsInverse {
+  ArmInverseOptions options;
+  ArmTarget target;
+  ArmLegsLoad load;
+  LegsWanted wanted;
+};
+
+LegsInverse read_legs_inverse(Context& context) {
+  LegsInverse asked;
+  asked.options.arm = read_legs_options(context);
+  asked.target = read_arm_target(context);
+  asked.load = read_legs_load(context.query);
+  read_arm_start(context, asked.options.arm);
+  if (const auto limit = context.query.optional("tension_limit"))
+    asked.options.most_tension = limit->quantity(Dimension::force, Range::positive());
+  asked.wanted = read_legs_wants(context);
+  return asked;
+}
+
+void answer_legs_inverse(Context& context, const LegsInverse& asked) {
+  const ArmLegs& robot = *context.robot.arm_legs();
+  const ArmLegsInverse found =
+      arm_legs_inverse(robot, asked.target, asked.load, asked.options, legs_work(context));
+  put_legs_state(context, robot, found.state, found.report);
+  put_legs_wants(context, robot, found.state, asked.wanted);
+}
+
+struct LegsStatics {
+  ArmOptions options;
+  ArmLegsMeasurement measured;
+  std::optional<SE3<double>> held;  ///< where the platform is held; else what was measured counts
+  ArmLegsLoad load;
+  bool force_alone = true;
+  LegsWanted wanted;
+};
+
+LegsStatics read_legs_statics(Context& context) {
+  const ArmLegs& robot = *context.robot.arm_legs();
+  LegsStatics asked;
+  asked.options = read_legs_options(context);
+  Reader& query = context.query;
+  ArmLegsMeasurement& measured = asked.measured;
+  measured.held = read_arm_commands(tendon_counts_of(robot), query);
+  asked.load = read_legs_load(query);
+  read_arm_start(context, asked.options);
+  const auto tensions = query.optional("measured_tensions"), position = query.optional("position"),
+             deviation = query.optional("deviation"), force = query.optional("force_alone");
+  auto pose = query.optional("pose");
+  if (!tensions && !position && !pose)
+    query.required("measured_tensions",
+                   "of every tendon; or position, where the platform was seen; or pose, where it is held");
+  if (tensions) {
+    measured.answers = read_forces(*tensions, robot.tendons(), Range{.low = 0, .high = 1e9}, false);
+    for (std::size_t i = 0; i < measured.held.size() && context.errors.empty(); ++i)
+      if (measured.held[i].held == TendonHeld::tension)
+        measured.answers[i] = std::nan("");  // held: it tells nothing
+  }
+  if (position) measured.position = position->array<3>(Dimension::length, Range::place());
+  std::optional<SpatialPose> seen;
+  if (pose) {
+    if (position) pose->fail("ambiguous", "the query gives a pose and a position; keep one");
+    seen = read_spatial_pose(std::move(*pose));
+    measured.position = std::array<double, 3>{seen->position[0], seen->position[1], seen->position[2]};
+    measured.quaternion = seen->quaternion;
+  }
+  if (seen && !tensions) {
+    asked.held = SE3<double>::from(*seen);
+    for (const auto* given : {&deviation, &force})
+      if (*given)
+        (*given)->fail("no_effect",
+                       "has no effect: the platform is held at pose, and nothing is measured; remove it");
+  }
+  if (deviation) measured.tension_deviation = deviation->quantity(Dimension::force, Range::positive());
+  asked.force_alone = !force || force->boolean();
+  asked.wanted = read_legs_wants(context);
+  return asked;
+}
+
+void answer_legs_statics(Context& context, const LegsStatics& asked) {
+  const auto& [options, measured, held_at, load, force_alone, wanted] = asked;
+  const ArmLegs& robot = *context.robot.arm_legs();
+  ArmLegsWorkspace& work = legs_work(context);
+  if (held_at) {
+    const ArmLegsHeld held = arm_legs_hold(robot, *held_at, measured.held, load, options, work);
+    put_legs_state(context, robot, held.state, held.state.report);
+    if (!held.state.report.ok()) return;
+    context.answer["wrench"] = held.wrench;
+    put_legs_wants(context, robot, held.state, wanted);
     return;
   }
-  const auto count = static_cast<Eigen::Index>(robot.tendons());
-  if (wanted.has(Want::velocity)) context.answer["U"] = Value(MatrixView(rates.J.data(), 6, count));
-  if (wanted.has(Want::stiffness))
-    context.answer["stiffness"] = Value(MatrixView(rates.stiffness.data(), 6, 6));
+  const ArmLegsSensed sensed = arm_legs_sense(robot, measured, load, force_alone, options, work);
+  put_legs_state(context, robot, sensed.state, sensed.report);
+  if (sensed.report.status == Status::bad_input || sensed.state.tensions.empty()) return;
+  context.answer["wrench"] = sensed.wrench;
+  if (sensed.report.ok()) {
+    context.answer["covariance"] = Value(MatrixView(sensed.covariance.data(), 6, 6));
+    put_number(context.answer, "condition", sensed.condition);
+  }
+  put_number(context.answer, "misfit", sensed.misfit);
+  put_legs_wants(context, robot, sensed.state, wanted);
+}
+
+struct LegsTrack {
+  ArmInverseOptions options;
+  std::vector<ArmLegsStep> path;
+  LegsWanted wanted;
+};
+
+LegsTrack read_legs_track(Context& context) {
+  for (const char* field : {"poses", "from", "to", "objective"})
+    if (const auto given = context.query.optional(field))
+      given->fail("not_available",
+                  "legs of sections are followed along points: [{pose: ...}, ...], or tensions, changes and "
+                  "loads");
+  LegsTrack asked;
+  asked.options.arm = read_legs_options(context);
+  asked.path = read_legs_points(context, *context.robot.arm_legs());
+  read_arm_start(context, asked.options.arm);
+  asked.wanted = read_legs_wants(context);
+  return asked;
+}
+
+void answer_legs_track(Context& context, const LegsTrack& asked) {
+  const auto& [options, path, wanted] = asked;
+  const ArmLegs& robot = *context.robot.arm_legs();
+  const auto points = arm_legs_track(robot, path, options, legs_work(context));
+  const ArmLegsState& last = points.back();
+  const auto steps = static_cast<std::size_t>(path.front().divisions);
+  const bool arrives = last.report.ok();
+  const std::size_t reached = arrives ? points.size() : points.size() - 1;
+  Value rows = Value::list();
+  double worst = 0;
+  int iterations = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    iterations += points[k].report.iterations;
+    if (k >= reached) break;
+    worst = std::max(worst, points[k].report.residual);
+    Value row{{"point", k / steps},
+              {"part", static_cast<double>(k % steps + 1) / static_cast<double>(steps)}};
+    put_legs_numbers(row, robot, points[k]);
+    rows.push_back(std::move(row));
+  }
+  Report report = last.report;
+  report.residual = arrives ? worst : last.report.residual;
+  report.iterations = iterations;
+  if (!arrives && !last.tensions.empty())
+    report.message =
+        FixedText<240>(fmt::format("the path ends on its way to points[{}], in step {} of {}: {}",
+                                   reached / steps, reached % steps + 1, steps, last.report.message.view()));
+  put_legs_state(context, robot, last, report);
+  if (last.tensions.empty()) return;  // refused: no step was tried
+  if (!arrives) context.answer["reached"] = {{"rows", reached}, {"point", reached / steps}};
+  if (arrives) put_legs_wants(context, robot, last, wanted);
+  context.answer["rows"] = std::move(rows);
 }
 
 void describe_arm_legs(Context& context) {
@@ -176,8 +425,11 @@ constexpr Handlers arm_legs_handlers{.robots = "legs of sections",
                                      .wants = {Want::pose, Want::legs, Want::velocity, Want::shape,
                                                Want::stiffness, Want::stability},  // that is told always
                                      .forward = handle<read_legs, answer_legs>,
+                                     .inverse = handle<read_legs_inverse, answer_legs_inverse>,
                                      .velocity = handle<read_legs, answer_legs>,
                                      .shape = handle<read_legs, answer_legs>,
+                                     .statics = handle<read_legs_statics, answer_legs_statics>,
+                                     .track = handle<read_legs_track, answer_legs_track>,
                                      .describe = tell<describe_arm_legs>,
                                      .lacks = lacking};
 

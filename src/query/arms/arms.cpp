@@ -141,22 +141,22 @@ ArmOptions read_arm_options(Question& context) {
   return options;
 }
 
-void read_arm_start(ArmContext& context, ArmOptions& options, bool takes_shape) {
+void read_arm_start(Question& context, ArmOptions& options, std::vector<std::array<double, 3>>* shape) {
   options.from_last = context.continues == Continues::always && context.last != nullptr;
   const auto start = context.query.optional("start");
   if (!start) return;
   if (start->is(Node::Kind::list)) {
-    if (!takes_shape)
+    if (!shape)
       start->fail("wrong_type", "a shape to begin at is of forward, velocity and shape; here it is last");
     const auto parts = start->items();
     if (parts.empty() || parts.size() > most_parts)
       start->fail("wrong_length",
                   fmt::format("a shape has the mean curvatures of 1 to {} equal parts of the arm, found {}",
                               most_parts, parts.size()));
-    context.curvatures.clear();
+    shape->clear();
     for (const Reader& part : parts)
-      context.curvatures.push_back(part.array<3>(Dimension::curvature, {.low = -1e6, .high = 1e6}));
-    options.from_curvatures = context.curvatures;
+      shape->push_back(part.array<3>(Dimension::curvature, {.low = -1e6, .high = 1e6}));
+    options.from_curvatures = *shape;
     options.from_last = false;
     return;
   }
@@ -361,7 +361,9 @@ void answer_forward(ArmContext& context, const ArmForward& asked) {
   put_solutions(context, context.work.stop, std::move(solutions));
 }
 
-ArmTarget read_arm_target(ArmContext& context) {
+}  // namespace
+
+ArmTarget read_arm_target(Question& context) {
   const AskedTip tip = read_tip(context, true);
   ArmTarget target{.position = tip.position, .direction = tip.direction};
   if (!tip.pose) return target;
@@ -369,6 +371,8 @@ ArmTarget read_arm_target(ArmContext& context) {
   target.quaternion = tip.pose->quaternion;
   return target;
 }
+
+namespace {
 
 struct ArmInverseQuestion {
   ArmInverseOptions options;
@@ -412,6 +416,8 @@ ArmSensing read_statics(ArmContext& context) {
   measured.held = read_arm_commands(context.robot, context.query);
   asked.load = read_arm_load(context.robot, context.query);
   read_arm_start(context, asked.options);
+  if (const auto pose = context.query.optional("pose"))
+    pose->fail("not_available", "is for platforms; of an arm give position, where the tip was seen");
   const auto tensions = context.query.optional("measured_tensions"), tip = context.query.optional("position"),
              deviation = context.query.optional("deviation"), force = context.query.optional("force_alone");
   if (!tensions && !tip)
@@ -448,7 +454,7 @@ ArmForward read_arm_forward(ArmContext& context) {
   asked.options = read_arm_options(context);
   asked.commands = read_arm_commands(context.robot, context.query);
   asked.load = read_arm_load(context.robot, context.query);
-  read_arm_start(context, asked.options, true);
+  read_arm_start(context, asked.options, &context.curvatures);
   if (context.ask == Ask::forward) {
     asked.until = read_until<Spatial>(context);
     if (const auto all = context.query.optional("all")) {

@@ -33,8 +33,11 @@ ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load = {});
 /// `model`, `order`, `elements`, `accuracy` and the bound on iterations.
 ArmOptions read_arm_options(Question& context);
 /// `start`: `last`, where the workspace is.
-/// @param takes_shape whether it may be a shape, too: mean curvatures of equal parts
-void read_arm_start(ArmContext& context, ArmOptions& options, bool takes_shape = false);
+/// @param shape of questions where it may be a shape, too: mean curvatures of equal parts, which stay there
+void read_arm_start(Question& context, ArmOptions& options,
+                    std::vector<std::array<double, 3>>* shape = nullptr);
+/// `pose`, or `position` and `direction`, of a tip or a platform.
+ArmTarget read_arm_target(Question& context);
 
 struct ArmWanted {
   Wants words;

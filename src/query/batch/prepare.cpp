@@ -199,6 +199,7 @@ Outputs usual_outputs(const Robot& robot, std::string_view query) {
              {"quaternion", "pose.quaternion"},
              {"tensions", "tensions"},
              {"changes", "changes"}};
+    if (query == "statics") usual.emplace_back("wrench", "wrench");
   } else if (robot.arm()) {
     usual = {{"position", "tip.position"},
              {"quaternion", "tip.quaternion"},

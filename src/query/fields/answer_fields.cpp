@@ -80,6 +80,7 @@ return std::array{
     AnswerField{"least_tension", number, "N", "of an arm's tendons"},
     AnswerField{"answer_rates", input_jacobian, "", "of an arm what its tendons answer, by what holds each"},
     AnswerField{"answers_by_wrench", input_jacobian, "", "the same by a wrench at its tip"},
+    AnswerField{"condition", number, "", "of J; of a sensed wrench how much better its best known direction is known than its worst"},
     AnswerField{"misfit", number, "", "of what was measured, in standard deviations"},
     AnswerField{"margin", number, "m", "of a diagram: to the next tendon that goes slack"},
     AnswerField{"over_tension", number, "m", "of a diagram: by which tendons are too short"},

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/arm_legs/legs_work.hpp"
+#include "robot/pose.hpp"
+
+namespace sinew::inline v1 {
+namespace {
+
+std::array<double, 3> mix(const std::array<double, 3>& a, const std::array<double, 3>& b, double share) {
+  return {std::lerp(a[0], b[0], share), std::lerp(a[1], b[1], share), std::lerp(a[2], b[2], share)};
+}
+
+/// Of a tendon that does not pull, held as the step holds it.
+std::vector<TendonCommand> unpulled(const ArmLegs& robot, const ArmLegsStep& step) {
+  std::vector<TendonCommand> commands(robot.tendons());
+  if (!step.pose)
+    for (std::size_t i = 0; i < commands.size(); ++i) commands[i].held = step.commands[i].held;
+  return commands;
+}
+
+/// From the workspace's equilibrium to a step.
+class WayTo {
+ public:
+  WayTo(const ArmLegs& robot, const ArmLegsStep& step, const ArmGroup& group)
+      : robot_(robot),
+        step_(step),
+        gravity_(group.gravity()),
+        platform_(group.platform()) {
+    const ArmGroup::Wrench wrench = group.wrench();
+    std::copy(wrench.begin(), wrench.end(), wrench_.begin());
+    for (std::size_t i = 0; i < step.commands.size(); ++i)
+      held_.push_back(group.held_as(static_cast<int>(i), step.commands[i].held));
+    if (step.pose) way_ = twist_between(platform_, *step.pose);
+  }
+  ArmLegsLoad load(double share) const {
+    ArmLegsLoad load;
+    for (std::size_t i = 0; i < 6; ++i) load.wrench[i] = std::lerp(wrench_[i], step_.load.wrench[i], share);
+    load.gravity = mix(gravity_, step_.load.gravity.value_or(robot_.gravity), share);
+    return load;
+  }
+  std::vector<TendonCommand> commands(double share) const {
+    std::vector<TendonCommand> commands = step_.commands;
+    for (std::size_t i = 0; i < commands.size(); ++i)
+      commands[i].value = std::lerp(held_[i], commands[i].value, share);
+    return commands;
+  }
+  ArmTarget target(double share) const {
+    const Vec3<double> p = platform_.p + share * way_.head<3>();
+    const SE3<double> pose{p, SO3<double>::exp(Vec3<double>(share * way_.tail<3>())).compose(platform_.R)};
+    return {.position = std::array<double, 3>{p[0], p[1], p[2]}, .quaternion = spatial_pose(pose).quaternion};
+  }
+
+ private:
+  const ArmLegs& robot_;
+  const ArmLegsStep& step_;
+  std::array<double, 3> gravity_;
+  SE3<double> platform_;
+  std::array<double, 6> wrench_{};
+  std::vector<double> held_;
+  Vec<double, 6> way_ = Vec<double, 6>::Zero();
+};
+
+}  // namespace
+
+std::vector<ArmLegsState> arm_legs_track(const ArmLegs& robot, std::span<const ArmLegsStep> steps,
+                                         const ArmInverseOptions& options, ArmLegsWorkspace& work) {
+  ArmLegsWorkspace::Impl& impl = work.impl();
+  std::vector<ArmLegsState> points;
+  const auto end = [&](Report report) {
+    points.push_back(impl.state);
+    points.back().report = report;
+    return points;
+  };
+  const std::vector<TendonCommand> loose(robot.tendons());
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const ArmLegsStep& step = steps[k];
+    Report misfit = legs_misfit(robot, step.pose ? loose : step.commands, step.load, options.arm, work);
+    if (misfit.ok() && step.divisions < 1)
+      misfit = {Status::bad_input, 0, 0, FixedText<240>("its way has less than one division")};
+    if (misfit.ok() && step.pose && !(step.pose->p.allFinite() && step.pose->R.matrix().allFinite()))
+      misfit = {Status::bad_input, 0, 0, FixedText<240>("its pose is not finite")};
+    if (misfit.ok()) continue;
+    misfit.message = FixedText<240>(fmt::format("step {}: {}", k + 1, misfit.message.view()));
+    impl.state = {};
+    return end(misfit);
+  }
+  if (steps.empty()) return points;
+  ArmInverseOptions each = options;
+  each.starts = 1;
+  if (!each.arm.from_last || !impl.has_last()) {
+    ArmLegsLoad weight;
+    weight.gravity = steps.front().load.gravity;
+    each.arm.from_last = false;
+    solve_legs(robot, {robot, unpulled(robot, steps.front()), weight}, each.arm, work);
+    if (!impl.has_last()) return end(impl.state.report);
+  }
+  each.arm.from_last = true;
+  for (const ArmLegsStep& step : steps) {
+    const WayTo way(robot, step, impl.group());
+    for (int part = 1; part <= step.divisions; ++part) {
+      const double share = static_cast<double>(part) / step.divisions;
+      Report report;
+      if (step.pose) {
+        report = arm_legs_inverse(robot, way.target(share), way.load(share), each, work).report;
+      } else {
+        solve_legs(robot, {robot, way.commands(share), way.load(share)}, each.arm, work, LegsEnd::on_the_way);
+        report = impl.state.report;
+      }
+      if (!report.ok()) return end(report);
+      points.push_back(impl.state);
+      points.back().report = report;
+    }
+  }
+  return points;
+}
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,57 @@
+/// @file inverse_search.hpp
+/// The search for tensions that take a tip, or a platform, to a target, whatever they pull at.
+#pragma once
+#include <vector>
+
+#include "sinew/kinematics/arm.hpp"
+
+namespace sinew::inline v1 {
+
+/// What is pulled.
+class PulledBody {
+ public:
+  PulledBody() = default;
+  PulledBody(const PulledBody&) = delete;
+  PulledBody& operator=(const PulledBody&) = delete;
+  virtual ~PulledBody() = default;
+
+  /// Its equilibrium under these tensions [N], from the last one or anew.
+  virtual Report pull(const std::vector<double>& tensions, bool from_last) = 0;
+  virtual const SE3<double>& tip() const = 0;
+  /// Twist of the tip by tensions, 6 rows [m/N, rad/N]; false where there is none.
+  virtual bool rates(std::vector<double>& J) = 0;
+  /// Tensions of its last equilibrium [N]; empty where there is none.
+  virtual std::vector<double> last_tensions() const = 0;
+  /// This equilibrium may be what is answered.
+  virtual void keep() {}
+};
+
+struct TensionSearch {
+  std::size_t tendons = 0;
+  double length = 0;  ///< by which places count [m]
+  double usual = 0;   ///< tension that bends by about a radian [N]
+  double most = 0;    ///< [N]
+  double precision = 0;
+  int starts = 0;
+  bool from_last = false;
+  int most_work = 1 << 30;  ///< equilibria and their iterations, of all starts
+};
+struct FoundTensions {
+  Report report;  ///< of the equilibrium; its residual is what the tip is off, 1e300 where none was found
+  std::vector<double> tensions;
+};
+
+/// Tensions of a target with the least sum of squares, or those that come nearest to it.
+FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& search, PulledBody& body);
+
+/// What the tip is off: place over the length, angle [rad], the largest.
+double off_target(const ArmTarget& target, const SE3<double>& tip, double length);
+/// What is wrong with the target, or empty.
+std::string_view target_misfit(const ArmTarget& target);
+/// The tension of a tendon that bends its section by about one radian: the least of all [N].
+double usual_tension(const Arm& arm);
+std::vector<TendonCommand> as_commands(const std::vector<double>& tensions);
+/// What is said of a target that was not reached.
+FixedText<240> unreachable_words(std::string_view what, std::string_view by, double most_tension, double off);
+
+}  // namespace sinew::inline v1
