@@ -1,7 +1,8 @@
 /// Equilibria of arms under load, for questions that vary what holds the tendons and the wrench at the tip:
 /// rows without their questions and answers, and without making the arm's rods anew for every chunk. On a
 /// path each row begins where the one before it ended, if that was solved; else, and where rows begin anew,
-/// at the straight arm, as a chunk's first row does.
+/// at the straight arm, as a chunk's first row does. Where tensions are held eight rows are in lanes; on a
+/// path these are stretches of a chunk, each of which begins at the straight arm.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <exception>
 #include <memory>
 
+#include "kinematics/arms/arm_lanes.hpp"
 #include "query/batch/query_entries.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/arm_file.hpp"
@@ -167,29 +169,43 @@ std::optional<AskedArm> asked_of_arm(const BatchQuestion& question) {
   return asked;
 }
 
+/// Rows of a path that follow one another, each stretch in a lane.
+constexpr std::size_t path_stretch = 32;
+/// Fewer rows, or stretches, than this are quicker one after the other.
+constexpr std::size_t least_in_lanes = 4;
+
+bool fits_lanes(const AskedArm& asked) {
+  return ArmLanes::fits(asked.arm, asked.options) &&
+         std::ranges::all_of(asked.held, [](TendonHeld held) { return held == TendonHeld::tension; });
+}
+
 class ArmSampler {
  public:
   explicit ArmSampler(std::shared_ptr<const AskedArm> asked)
       : asked_(std::move(asked)),
         work_(asked_->arm),
-        commands_(asked_->arm.tendons.size()) {}
+        commands_(asked_->arm.tendons.size()) {
+    if (fits_lanes(*asked_)) lanes_ = std::make_unique<ArmLanes>(asked_->arm, asked_->options);
+  }
 
   void operator()(const SampleBlock& block) {
+    if (lanes_ && block.count > (least_in_lanes - 1) * (asked_->is_path ? path_stretch : 1)) {
+      in_lanes(block);
+      return;
+    }
     work_.stop = StopToken(*block.stop);
     bool follows = false;
     for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
-      for (std::size_t o = 0; o < asked_->outputs.size(); ++o) block.output(o, k) = not_a_number;
+      clear(block, k);
       try {
-        if (!take(block, k)) {
+        if (!take(block, k, commands_, load_)) {
           block.statuses[k] = refused;
           follows = false;
           continue;
         }
         const ArmState& state = solve(follows);
-        const Status status = state.report.status;
-        if (status != Status::bad_input && status != Status::unsupported) put(block, k, state);
-        block.statuses[k] = status == Status::unsupported ? not_supported : sample_status(status);
-        follows = asked_->is_path && status == Status::converged;
+        tell(block, k, state);
+        follows = asked_->is_path && state.report.ok();
       } catch (const std::exception&) {
         block.statuses[k] = failed_inside;
         follows = false;
@@ -198,17 +214,52 @@ class ArmSampler {
   }
 
  private:
+  void in_lanes(const SampleBlock& block) {
+    for (std::size_t k = 0; k < block.count; ++k) {
+      clear(block, k);
+      block.statuses[k] = not_computed;
+    }
+    try {
+      lanes_->solve(
+          block.count, asked_->is_path ? path_stretch : 1,
+          [&](std::size_t k, std::span<TendonCommand> commands, ArmLoad& load) {
+            return take(block, k, commands, load);
+          },
+          [&](std::size_t k, const ArmState* state) {
+            if (state)
+              tell(block, k, *state);
+            else
+              block.statuses[k] = refused;
+            ++*block.done;
+          },
+          StopToken(*block.stop));
+    } catch (const std::exception&) {
+      for (std::size_t k = 0; k < block.count; ++k)
+        if (block.statuses[k] == not_computed) block.statuses[k] = failed_inside;
+      lanes_ = std::make_unique<ArmLanes>(asked_->arm, asked_->options);
+    }
+  }
+
+  void clear(const SampleBlock& block, std::size_t k) const {
+    for (std::size_t o = 0; o < asked_->outputs.size(); ++o) block.output(o, k) = not_a_number;
+  }
+  void tell(const SampleBlock& block, std::size_t k, const ArmState& state) const {
+    const Status status = state.report.status;
+    if (status != Status::bad_input && status != Status::unsupported) put(block, k, state);
+    block.statuses[k] = status == Status::unsupported ? not_supported : sample_status(status);
+  }
+
   /// The numbers of a row; false where a query would not take them.
-  bool take(const SampleBlock& block, std::size_t k) {
+  bool take(const SampleBlock& block, std::size_t k, std::span<TendonCommand> commands, ArmLoad& load) const {
     constexpr double most = 1e9;
-    for (std::size_t i = 0; i < commands_.size(); ++i) {
+    for (std::size_t i = 0; i < commands.size(); ++i) {
       const double value = asked_->tendons[i].at(block, k);
       if (!(value >= (asked_->held[i] == TendonHeld::tension ? 0 : -most) && value <= most)) return false;
-      commands_[i] = {asked_->held[i], value};
+      commands[i] = {asked_->held[i], value};
     }
     for (std::size_t i = 0; i < 6; ++i) {
-      load_.wrench[i] = asked_->wrench[i].at(block, k);
-      if (!std::isfinite(load_.wrench[i])) return false;
+      load.wrench[i] = asked_->wrench[i].at(block, k);
+      if (!std::isfinite(load.wrench[i])) return false;
     }
     return true;
   }
@@ -223,7 +274,7 @@ class ArmSampler {
     return arm_forward(asked_->arm, commands_, load_, options, work_);
   }
 
-  void put(const SampleBlock& block, std::size_t k, const ArmState& state) {
+  void put(const SampleBlock& block, std::size_t k, const ArmState& state) const {
     const SpatialPose tip = spatial_pose(state.tip);
     for (std::size_t o = 0; o < asked_->outputs.size(); ++o) {
       const auto [of, i] = asked_->outputs[o];
@@ -258,6 +309,7 @@ class ArmSampler {
   ArmWorkspace work_;
   std::vector<TendonCommand> commands_;
   ArmLoad load_;
+  std::unique_ptr<ArmLanes> lanes_;  ///< if the question fits them
 };
 
 }  // namespace
@@ -265,8 +317,12 @@ class ArmSampler {
 SamplerKind arm_sampler(const BatchQuestion& question) {
   auto asked = asked_of_arm(question);
   if (!asked) return {};
+  const bool in_lanes = fits_lanes(*asked);
+  const std::size_t least = !in_lanes ? 32 : asked->is_path ? 2048 : 256, most = in_lanes ? 4096 : 512;
   const auto shared = std::make_shared<const AskedArm>(std::move(*asked));
-  return {.name = "arms row by row", .chunks = {32, 512}, .make = [shared]() -> Sampler {
+  return {.name = in_lanes ? "arms in lanes" : "arms row by row",
+          .chunks = {least, most},
+          .make = [shared]() -> Sampler {
             return [sampler = std::make_shared<ArmSampler>(shared)](const SampleBlock& block) {
               (*sampler)(block);
             };

@@ -100,7 +100,7 @@ SamplerKind pose_sampler(const BatchQuestion& question);
 /// Tendon changes of serial robots in lanes; likewise.
 SamplerKind serial_sampler(const BatchQuestion& question);
 
-/// Equilibria of arms under load, one after the other, without queries; likewise.
+/// Equilibria of arms under load without queries, in lanes where tensions are held; likewise.
 SamplerKind arm_sampler(const BatchQuestion& question);
 
 /// The quickest there is.
