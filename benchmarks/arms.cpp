@@ -1,17 +1,22 @@
 /// Arms under load: two sections of ten discs, three tendons each, tensions that walk by about 1 %.
 /// Run: build/dev/bin/bench_arms
 /// Baselines: the equations of the published models by a dense Newton whose Jacobian is made of differences;
-/// a cold start. The last lines are the cost against the number of discs, and rows of a batch.
+/// a cold start. The last lines are the cost against the number of discs, and rows of a batch by each
+/// instruction set, in seconds of the processor.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <numbers>
+#include <random>
 
+#include "instruction_sets.hpp"
 #include "io/parse.hpp"
 #include "report.hpp"
+#include "sinew/io/arm_file.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/arm.hpp"
 #include "sinew/query/batch.hpp"
@@ -106,8 +111,26 @@ void print_exponent() {
   std::printf("cost grows with discs to the power of %.2f\n", (n * sxy - sx * sy) / (n * sxx - sx * sx));
 }
 
-/// Rows of a batch on one thread: tensions of all tendons on closed walks about 2 N, 2048 rows around.
-void print_batch(const char* path) {
+/// Of the processor, which others on the machine do not lengthen as they do a clock's.
+double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The same rows by `arm_forward`, one after the other.
+double rows_alone(const Arm& arm, std::span<const double> tensions, std::size_t rows, bool is_path) {
+  ArmWorkspace work(arm);
+  ArmOptions options;
+  std::vector<TendonCommand> commands(6);
+  const double start = seconds();
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (std::size_t i = 0; i < 6; ++i) commands[i] = {TendonHeld::tension, tensions[6 * k + i]};
+    options.from_last = is_path && k > 0;
+    benchmark::DoNotOptimize(arm_forward(arm, commands, {}, options, work).energy);
+  }
+  return static_cast<double>(rows) / (seconds() - start);
+}
+
+/// Rows of a batch on one thread: tensions of all tendons on closed walks about 2 N, 2048 rows around; or any
+/// up to 4 N.
+void print_batch(const char* path, bool walks) {
   const auto question = parse_json(
       fmt::format(R"({{"query":"forward","tensions":"$t","outputs":{{"p":"tip.position"}},"path":"{}"}})",
                   path),
@@ -115,26 +138,33 @@ void print_batch(const char* path) {
   const auto robot = read_robot_file("two-segment");
   if (!question || !robot) return;
   const auto batch = Batch::prepare(*robot, *question);
-  if (!batch) return;
+  const auto arm = read_arm(*robot);
+  if (!batch || !arm) return;
   constexpr std::size_t rows = 4096;
   std::vector<double> in, out(3 * rows);
+  std::mt19937 gen(1);
+  std::uniform_real_distribution<double> any(0, 4);
   for (std::size_t k = 0; k < rows; ++k)
     for (std::size_t i = 0; i < 6; ++i)
-      in.push_back(2 + 1.9 * std::sin(2 * std::numbers::pi * static_cast<double>((i + 1) * k) / 2048 +
-                                      static_cast<double>(i)));
+      in.push_back(walks ? 2 + 1.9 * std::sin(2 * std::numbers::pi * static_cast<double>((i + 1) * k) / 2048 +
+                                              static_cast<double>(i))
+                         : any(gen));
   std::vector<std::uint8_t> statuses(rows);
   constexpr std::ptrdiff_t number = sizeof(double);
   const Batch::Strided<const double> from[] = {{in.data(), 6 * number}};
   const Batch::Strided<double> to[] = {{out.data(), 3 * number}};
-  double best = 1e300;
+  double best = 0, alone = 0;
   for (int round = 0; round < 5; ++round) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = seconds();
     batch->run(rows, from, to, statuses, {.threads = 1});
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    best = std::max(best, static_cast<double>(rows) / (seconds() - start));
+    alone = std::max(alone, rows_alone(*arm, in, rows / 2, path == std::string_view("continue")));
   }
   const auto solved = std::ranges::count(statuses, static_cast<std::uint8_t>(Status::converged));
-  std::printf("batch, %s, path %s: %.0f rows a second, %td of %zu solved\n",
-              std::string(batch->method()).c_str(), path, static_cast<double>(rows) / best, solved, rows);
+  std::printf(
+      "batch, %s, %s, path %s: %.0f rows a second, %td of %zu solved; one after the other %.0f, ratio %.1f\n",
+      std::string(batch->method()).c_str(), walks ? "walk" : "any tensions", path, best, solved, rows, alone,
+      best / alone);
 }
 
 }  // namespace
@@ -155,7 +185,15 @@ int main(int argc, char** argv) {
   row("constant in a section, warm", {.model = ArmModel::cc}, "cold", {.model = ArmModel::cc}, false);
   const int status = sinew::bench::main(argc, argv);
   print_exponent();
-  print_batch("continue");
-  print_batch("anew");
+  for (const InstructionSet& isa : instruction_sets) {
+    hwy::SetSupportedTargetsForTest(0);
+    if (!isa.is_there()) continue;
+    hwy::SetSupportedTargetsForTest(isa.target);
+    std::printf("%s\n", isa.name);
+    print_batch("continue", true);
+    print_batch("anew", true);
+    print_batch("anew", false);
+  }
+  hwy::SetSupportedTargetsForTest(0);
   return status;
 }

@@ -120,15 +120,16 @@ bool LoadedRod::pulls_like(const LoadedRod& other) const {
   return next == other.active_.size();
 }
 
-void LoadedRod::lean_on(LoadedRod& fewer) {
-  lean_ = &fewer;
-  const auto add = [](const RodModel& model, double sign, std::vector<std::vector<double>>& squares) {
-    for (std::size_t k = 0; k < model.pieces.size(); ++k) {
-      const Piece& piece = model.pieces[k];
-      const Span& last = model.spans[at(piece.first_span + piece.spans - 1)];
-      for (int e = model.spans[at(piece.first_span)].first_element; e < last.first_element + last.elements;
+std::vector<std::vector<double>> elastic_difference(const RodModel& model, const RodModel& fewer) {
+  std::vector<std::vector<double>> squares;
+  for (const Piece& piece : model.pieces) squares.emplace_back(at(piece.size * piece.padded), 0.0);
+  const auto add = [&](const RodModel& from, double sign) {
+    for (std::size_t k = 0; k < from.pieces.size(); ++k) {
+      const Piece& piece = from.pieces[k];
+      const Span& last = from.spans[at(piece.first_span + piece.spans - 1)];
+      for (int e = from.spans[at(piece.first_span)].first_element; e < last.first_element + last.elements;
            ++e) {
-        const Element& element = model.elements[at(e)];
+        const Element& element = from.elements[at(e)];
         for (std::size_t g = 0; g < at(element.points); ++g)
           for (std::size_t c = 0; c < 6; ++c) {
             const double stiff =
@@ -141,10 +142,14 @@ void LoadedRod::lean_on(LoadedRod& fewer) {
       }
     }
   };
-  elastic_.clear();
-  for (const Piece& piece : model_->pieces) elastic_.emplace_back(at(piece.size * piece.padded), 0.0);
-  add(*model_, 1, elastic_);
-  add(*fewer.model_, -1, elastic_);
+  add(model, 1);
+  add(fewer, -1);
+  return squares;
+}
+
+void LoadedRod::lean_on(LoadedRod& fewer) {
+  lean_ = &fewer;
+  elastic_ = elastic_difference(*model_, *fewer.model_);
 }
 
 void LoadedRod::take_hessian_of_lean() {

@@ -57,6 +57,10 @@ bool is_within(const RodModel& from, const RodModel& to);
 /// Coordinates of one rod in another, where either is within the other: what both have; 0 beyond.
 void take_shared(const RodModel& from, std::span<const double> y, const RodModel& to, std::span<double> out);
 
+/// Of every piece, size × padded: the elastic Hessian of a rod less that of one with the same coordinates and
+/// fewer elements.
+std::vector<std::vector<double>> elastic_difference(const RodModel& model, const RodModel& fewer);
+
 /// How far the equilibrium of a finer rod is off that of a coarse one.
 struct Approach {
   bool close = false;  ///< it is known; else steps did not become shorter soon enough

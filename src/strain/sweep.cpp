@@ -6,6 +6,9 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <algorithm>
+
+#include "strain/element-inl.hpp"
 #include "strain/sweep.hpp"
 #include "strain/twist-inl.hpp"
 
@@ -31,21 +34,7 @@ HWY_INLINE void magnus(const Element& element, const std::array<Six, 2>& xi, Six
     for (std::size_t c = 0; c < 6; ++c) omega[c] = length * strain[c];
     return;
   }
-  const double *a = xi[0].data(), *b = xi[1].data(), half = 0.5 * element.length;
-  double first[3], second[3], turn[3];
-  cross3(a + 3, b, first);
-  cross3(a, b + 3, second);
-  cross3(a + 3, b + 3, turn);
-  for (std::size_t i = 0; i < 3; ++i) {
-    omega[i] = half * (a[i] + b[i]) + element.commutator * (first[i] + second[i]);
-    omega[i + 3] = half * (a[i + 3] + b[i + 3]) + element.commutator * turn[i];
-  }
-}
-
-/// v + u × r + dr/ds: how a tendon in a channel runs, by the rod's length.
-HWY_INLINE void guided(const Six& xi, const Three& place, const Three& slope, double* x) {
-  cross3(xi.data() + 3, place.data(), x);
-  for (std::size_t i = 0; i < 3; ++i) x[i] += xi[i] + slope[i];
+  magnus(element, xi[0].data(), xi[1].data(), omega.data());
 }
 
 void SweepOut(const RodModel& model, RodWork& work) {
@@ -71,7 +60,7 @@ void SweepOut(const RodModel& model, RodWork& work) {
           for (int i = element.first_guide; i < element.first_guide + element.guides; ++i) {
             const Guide& guide = model.guides[static_cast<std::size_t>(i)];
             double x[3];
-            guided(xi[point], guide.place[point], guide.slope[point], x);
+            guided(xi[point].data(), guide.place[point], guide.slope[point], x);
             work.lengths[static_cast<std::size_t>(guide.tendon)] += element.weight * std::sqrt(dot3(x, x));
           }
         }
@@ -86,11 +75,9 @@ void SweepOut(const RodModel& model, RodWork& work) {
       }
       for (int i = span.first_hole; i < span.first_hole + span.holes; ++i) {
         const Hole& hole = model.holes[static_cast<std::size_t>(i)];
-        double a[3], b[3];
-        turn3(start->R, hole.start.data(), a);
-        turn3(frame->R, hole.end.data(), b);
-        for (int j = 0; j < 3; ++j) b[j] += frame->p[j] - a[j] - start->p[j];
-        work.lengths[static_cast<std::size_t>(hole.tendon)] += std::sqrt(dot3(b, b));
+        double x[3];
+        way_between(*start, *frame, hole, x);
+        work.lengths[static_cast<std::size_t>(hole.tendon)] += std::sqrt(dot3(x, x));
       }
     }
   }
@@ -102,90 +89,6 @@ void SweepOut(const RodModel& model, RodWork& work) {
   work.energy = energy;
 }
 
-/// Of a node's load the gradient of its potential, or what stands for it, and where P is given its
-/// derivative.
-HWY_INLINE void add_load(const NodeLoad& load, const RodFrame& frame, double* lambda, Block* P) {
-  double f[3], m[3], D[9];
-  turn_back3(frame.R, load.force, f);
-  turn_back3(frame.R, load.moment, m);
-  for (int i = 0; i < 3; ++i)  // Rᵀ Σ f dᵀ: rows are f
-    for (int j = 0; j < 3; ++j)
-      D[3 * i + j] = frame.R[i] * load.couple[j] + frame.R[3 + i] * load.couple[3 + j] +
-                     frame.R[6 + i] * load.couple[6 + j];
-  const double around[3] = {D[7] - D[5], D[2] - D[6], D[3] - D[1]};  // Σ d × f
-  double follow[6];
-  for (int i = 0; i < 6; ++i) follow[i] = -load.following[i];
-  for (int i = 0; i < 3; ++i) {
-    lambda[i] += follow[i] - f[i];
-    lambda[i + 3] += follow[i + 3] - m[i] - around[i];
-  }
-  if (P == nullptr) return;
-  add_skew(*P, 3, 0, f, 0.5);
-  add_skew(*P, 0, 3, f, -0.5);
-  const double trace = D[0] + D[4] + D[8];
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) P->a[i + 3][j + 3] -= 0.5 * (D[3 * i + j] + D[3 * j + i]);
-    P->a[i + 3][i + 3] += trace;
-  }
-  add_skew(*P, 3, 3, m, -0.5);
-  add_bracket(*P, follow, 0.5);
-}
-
-/// b + scale (Nᵀ N − g gᵀ) with N = [1, −[r]] and g = Nᵀ t: how a length changes across its direction t.
-HWY_INLINE void add_stretching(Block& b, const double* r, const double* g, double scale) {
-  alignas(64) double line[row] = {g[0], g[1], g[2], g[3], g[4], g[5], 0, 0};
-  for (int i = 0; i < 6; ++i) lanes(b.a[i]) -= (scale * g[i]) * lanes(line);
-  const double square = scale * dot3(r, r);
-  for (int i = 0; i < 3; ++i) {
-    b.a[i][i] += scale;
-    b.a[i + 3][i + 3] += square;
-    for (int j = 0; j < 3; ++j) b.a[i + 3][j + 3] -= scale * r[i] * r[j];
-  }
-  add_skew(b, 0, 3, r, -scale);
-  add_skew(b, 3, 0, r, scale);
-}
-
-/// The gradient of a tendon's length between two discs by the twist of the second one against the first, and
-/// where P is given its second derivative times the tension.
-HWY_INLINE void hole_terms(const RodFrame& start, const RodFrame& end, const Hole& hole, double tension,
-                           double* gradient, Block* P) {
-  double a[3], x[3], t[3], around[3];
-  turn3(start.R, hole.start.data(), a);
-  turn3(end.R, hole.end.data(), x);
-  for (int j = 0; j < 3; ++j) x[j] += end.p[j] - a[j] - start.p[j];
-  const double length = std::sqrt(dot3(x, x));
-  turn_back3(end.R, x, t);
-  for (double& component : t) component /= length;
-  const double* r = hole.end.data();
-  cross3(r, t, around);
-  for (int j = 0; j < 3; ++j) {
-    gradient[j] = t[j];
-    gradient[j + 3] = around[j];
-  }
-  if (P == nullptr) return;
-  add_skew(*P, 3, 0, t, -0.5 * tension);
-  add_skew(*P, 0, 3, t, 0.5 * tension);
-  const double tr = dot3(t, r), stiff = tension / length;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) P->a[i + 3][j + 3] += 0.5 * tension * (t[i] * r[j] + r[i] * t[j]);
-    P->a[i + 3][i + 3] -= tension * tr;
-  }
-  add_stretching(*P, r, gradient, stiff);
-}
-
-/// Of a guided tendon at a Gauss point: the gradient of its length by the strain, and the second derivative.
-HWY_INLINE void guide_terms(const Six& xi, const Guide& guide, int point, double* gradient, double tension,
-                            Block* E) {
-  const auto g = static_cast<std::size_t>(point);
-  double x[3];
-  guided(xi, guide.place[g], guide.slope[g], x);
-  const double length = std::sqrt(dot3(x, x)), *r = guide.place[g].data();
-  for (int i = 0; i < 3; ++i) gradient[i] = x[i] / length;
-  cross3(r, gradient, gradient + 3);
-  if (E == nullptr) return;
-  add_stretching(*E, r, gradient, tension / length);
-}
-
 /// A gradient by the strains of an element into that by the coordinates of its piece.
 HWY_INLINE void collect(const Piece& piece, const Element& element, int point, const double* by_strain,
                         double* out) {
@@ -194,33 +97,6 @@ HWY_INLINE void collect(const Piece& piece, const Element& element, int point, c
     const double x = by_strain[c] * piece.scale[c];
     double* own = out + piece.offset[c];
     for (int a = 0; a < piece.modes[c]; ++a) own[a] += x * modes[a];
-  }
-}
-
-/// From a gradient by Ω to those by the two strains.
-HWY_INLINE void by_strains(const Element& element, const std::array<Six, 2>& xi, const double* by_omega,
-                           double* first, double* second) {
-  if (element.points == 1) {
-    for (int i = 0; i < 6; ++i) first[i] = by_omega[i];
-    return;
-  }
-  // D₁ᵀ = h/2 − k ad(ξ₂)ᵀ, D₂ᵀ = h/2 + k ad(ξ₁)ᵀ; adᵀ λ = −(ω × f, ω × m + v × f)
-  const auto dual = [&](const Six& x, double* out) {
-    double a[3], b[3], c[3];
-    cross3(x.data() + 3, by_omega, a);
-    cross3(x.data() + 3, by_omega + 3, b);
-    cross3(x.data(), by_omega, c);
-    for (int i = 0; i < 3; ++i) {
-      out[i] = -a[i];
-      out[i + 3] = -b[i] - c[i];
-    }
-  };
-  double one[6], two[6];
-  dual(xi[1], one);
-  dual(xi[0], two);
-  for (int i = 0; i < 6; ++i) {
-    first[i] = 0.5 * element.length * by_omega[i] - element.commutator * one[i];
-    second[i] = 0.5 * element.length * by_omega[i] + element.commutator * two[i];
   }
 }
 
@@ -333,7 +209,8 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
         const auto& xi = work.strains[at];
         const double *R = work.steps[at].data(), *p = R + 9, *omega = work.omega[at].data();
         const Entire fn = entire(dot3(omega + 3, omega + 3));
-        add_load(work.loads[at + 1], work.frames[at + 1], outer.lambda, hessian ? &outer.P : nullptr);
+        add_load(work.loads[at + 1], work.loads[at + 1].force, work.frames[at + 1].R, outer.lambda,
+                 hessian ? &outer.P : nullptr);
         if (element.points == 0) {  // a rigid link carries what lies after it, and no more
           Block A;
           if (hessian || packs > 0) back_adjoint(R, p, A);
@@ -356,7 +233,10 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
         Block J;
         right_jacobian(omega, fn, J);
         apply_back(J, lambda, by_omega);
-        by_strains(element, xi, by_omega, by_strain[0], by_strain[1]);
+        if (element.points == 1)
+          std::copy(by_omega, by_omega + 6, by_strain[0]);
+        else
+          by_strains(element, xi[0].data(), xi[1].data(), by_omega, by_strain[0], by_strain[1]);
         [[maybe_unused]] Block E[2][2];
         Block D[2], A;
         if (hessian || packs > 0) {
@@ -399,7 +279,7 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
             const Guide& guide = model.guides[which];
             const double tension = element.weight * work.guide_tension[which];
             double one[6];
-            guide_terms(xi[point], guide, g, one, tension, hessian ? &E[g][g] : nullptr);
+            guide_terms(xi[point].data(), guide, g, one, tension, hessian ? &E[g][g] : nullptr);
             for (int j = 0; j < 6; ++j) {
               by_strain[g][j] += tension * one[j];
               one[j] *= element.weight;

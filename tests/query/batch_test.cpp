@@ -152,19 +152,19 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"query":"forward","tensions":"$t","outputs":{"p":"tip.position","q":"tip.quaternion","c":"changes","s":"slack","e":"potential","r":"resolution"}})",
             {1.5, 1, 1, 1, 1.5, 1},
             0.8,
-            "arms row by row"},
+            "arms in lanes"},
         Case{
             "two-segment",
             R"({"query":"forward","tensions":[["$a",0.5,null]],"wrench":["$x",0,-0.01,0,0,0],"accuracy":1e-5,"outputs":{"p":"tip.position","t":"tensions"}})",
             {1, 0.01},
             0.01,
-            "arms row by row"},
+            "arms in lanes"},
         Case{
             "tendon-rod",
             R"({"query":"forward","model":"rod","tensions":[["$a",0,"2 N",0]],"outputs":{"x":"tip.position[0]"}})",
             {2},
             1.5,
-            "arms row by row"},
+            "arms in lanes"},
         Case{"two-segment",
              R"({"query":"forward","tensions":"$t","want":["pose"],"outputs":{"x":"tip.position[0]"}})",
              {1.5, 1, 1, 1, 1.5, 1},
@@ -352,8 +352,7 @@ TEST(Batch, UsualOutputsAreThereAndHaveTheResidual) {
               "query by query",
               {0},
               0.001},
-        Usual{
-            "tendon-rod", R"({"query":"forward","tensions":[["$t",0,0,0]]})", "arms row by row", {1}, 0.1}}) {
+        Usual{"tendon-rod", R"({"query":"forward","tensions":[["$t",0,0,0]]})", "arms in lanes", {1}, 0.1}}) {
     const Batch batch = prepared(robot, question).value();
     EXPECT_EQ(batch.method(), method) << question;
     EXPECT_EQ(batch.outputs().back().name, "residual") << question;
@@ -432,7 +431,7 @@ TEST(Batch, ArmsOnAPathAreWhereTheyAreAnew) {
   numbers[6 * 30 + 2] = std::nan("");
   numbers[6 * 40 + 3] = 2e9;
   const Batch path = batch("continue"), anew = batch("anew");
-  EXPECT_EQ(path.method(), "arms row by row");
+  EXPECT_EQ(path.method(), "arms in lanes");
   const Rows warm = run(path, numbers), cold = run(anew, numbers);
   const auto has = [&](const Rows& rows, std::size_t k) { return static_cast<Status>(rows.statuses[k]); };
   for (std::size_t k = 0; k < 300; ++k) {
@@ -451,6 +450,25 @@ TEST(Batch, ArmsOnAPathAreWhereTheyAreAnew) {
     return run(path, numbers, {.stop = &stop});
   }();
   EXPECT_EQ(has(stopped, 7), Status::stopped);
+}
+
+/// Chunks, and in them stretches of a path, come from the number of rows alone, so that threads do not show.
+TEST(Batch, ArmsInLanesHaveTheSameBytesForAnyNumberOfThreads) {
+  std::vector<double> numbers;
+  for (int k = 0; k < 4200; ++k) numbers.push_back(1.5 + 1.4 * std::sin(0.01 * k));
+  numbers[3000] = -1;
+  for (const char* path : {"continue", "anew"}) {
+    std::string question =
+        R"({"query":"forward","model":"cc","tensions":[["$t",0.5,0]],"path":"%s","outputs":{"p":"tip.position"}})";
+    const Batch batch = prepared("two-segment", question.replace(question.find("%s"), 2, path)).value();
+    EXPECT_EQ(batch.method(), "arms in lanes");
+    const Rows one = run(batch, numbers, {.threads = 1}), three = run(batch, numbers, {.threads = 3});
+    EXPECT_EQ(one.statuses, three.statuses);
+    EXPECT_EQ(one.statuses[3000], static_cast<std::uint8_t>(Status::bad_input));
+    EXPECT_EQ(std::ranges::count(one.statuses, static_cast<std::uint8_t>(Status::converged)), 4199);
+    EXPECT_EQ(0, std::memcmp(one.outputs.data(), three.outputs.data(), one.outputs.size() * sizeof(double)))
+        << path;
+  }
 }
 
 TEST(Batch, SaysWhatIsWrong) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <memory>
 
+#include "kinematics/arms/ladder.hpp"
 #include "robot/arm_model.hpp"
 #include "sinew/kinematics/arm.hpp"
 #include "strain/relax.hpp"
@@ -22,7 +23,7 @@ struct ArmRod {
 /// What arm_follow remembers: follow.cpp.
 struct ArmPath;
 
-struct ArmWorkspace::Impl {
+struct ArmWorkspace::Impl : Rung {
   explicit Impl(const Arm& arm);
 
   std::shared_ptr<const char> robot;  ///< identity of the arm it is for
@@ -37,10 +38,7 @@ struct ArmWorkspace::Impl {
   std::vector<std::unique_ptr<ArmRod>> levels;  ///< coarse to fine; made when needed
 
   std::vector<TendonCommand> commands;  ///< of the last equilibrium
-  int level = -1;                       ///< the rod that it was found with; −1: none was
   bool balances = false;                ///< whether it was found
-  double checked_size = 0;              ///< size of the highest modes when the resolution was last checked
-  double checked = 0;                   ///< what that check gave [m]
   ArmState state;
 
   std::shared_ptr<ArmPath> path;  ///< of arm_follow; none: it begins anew

@@ -6,6 +6,7 @@
 
 #include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
+#include "kinematics/arms/ladder.hpp"
 #include "kinematics/arms/published.hpp"
 
 namespace sinew::inline v1 {
@@ -15,57 +16,6 @@ using strain::LoadedRod;
 using strain::NodeLoad;
 using strain::NodeShare;
 using strain::RodModel;
-
-/// Orders and elements of polynomials.
-struct Resolution {
-  int order;  ///< −1: the model's, which has one less of what is stiff
-  int elements;
-};
-constexpr std::array<Resolution, 4> along_sections{{{-1, 8}, {5, 16}, {7, 32}, {9, 64}}};
-constexpr std::array<Resolution, 6> between_discs{{{-1, 2}, {3, 3}, {4, 5}, {5, 8}, {6, 13}, {7, 20}}};
-
-/// What a model is refined by, coarse to fine, in order and elements alike, so that a step tells what either
-/// of them was off; empty where it has one resolution. Between two of them is the finer one's elements with
-/// the coarser one's order, which often does as well: resolution 2 k is the k-th, 2 k − 1 the one before it.
-std::span<const Resolution> resolutions_of(const ArmOptions& options) {
-  if (options.order >= 0 || options.elements > 0 || options.balance != ArmBalance::energy) return {};
-  if (options.model == ArmModel::rod) return along_sections;
-  if (options.model == ArmModel::subsegment_rod) return between_discs;
-  return {};
-}
-
-int level_count(const ArmOptions& options) {
-  return std::max(1, 2 * static_cast<int>(resolutions_of(options).size()) - 1);
-}
-
-Resolution resolution_at(std::span<const Resolution> resolutions, int level) {
-  const Resolution& finer = resolutions[at((level + 1) / 2)];
-  return {level % 2 == 0 ? finer.order : resolutions[at(level / 2)].order, finer.elements};
-}
-
-/// The next of the table that has more elements.
-int finer_than(int level) { return ((level + 1) / 2 + 1) * 2; }
-/// The one of the table before it.
-int coarser_than(int level) { return (level + 1) / 2 * 2 - 2; }
-
-/// By how much the elements of one level lower the error of another: as the fourth power of their length, the
-/// order of frames and quadrature.
-double error_ratio(const ArmOptions& options, int level, int finer) {
-  const auto resolutions = resolutions_of(options);
-  const double share = static_cast<double>(resolution_at(resolutions, finer).elements) /
-                       static_cast<double>(resolution_at(resolutions, level).elements);
-  return share * share * share * share;
-}
-
-/// From where an error stands at a level, the level whose next one is to bring it below a bound, if elements
-/// rule it; one that has a next, against which it can be checked.
-int level_for(const ArmOptions& options, int level, double error, double bound) {
-  int to = level;
-  while (finer_than(finer_than(to)) < level_count(options) &&
-         error > bound * error_ratio(options, level, finer_than(to)))
-    to = finer_than(to);
-  return to;
-}
 
 /// Elements that do for the Hessian of Newton's steps where gradients need more: at least as many as its
 /// polynomials need, in number a half to a quarter of the model's; 0: too near to its own to pay.
@@ -193,21 +143,6 @@ static void carry_over(const LoadedRod& from, LoadedRod& to) {
 
 namespace {
 
-/// Of the highest modes of bending: what a polynomial of this order may lack.
-double size_of_highest(const RodModel& model, const std::vector<double>& y) {
-  double sum = 0;
-  for (const strain::Piece& piece : model.pieces)
-    for (std::size_t c = 3; c < 6; ++c)
-      if (piece.modes[c] > piece.stretches) {
-        for (int k = 1; k <= piece.stretches; ++k) {
-          const double value =
-              y[at(piece.first + piece.offset[c] + k * (piece.modes[c] / piece.stretches) - 1)];
-          sum += value * value;
-        }
-      }
-  return std::sqrt(sum / model.energy_scale);
-}
-
 void set_holds(const Arm& arm, const ArmWorkspace::Impl& impl, LoadedRod& rod) {
   for (std::size_t i = 0; i < rod.holds.size(); ++i) {
     const ArmTendon& tendon = arm.tendons[i];
@@ -310,8 +245,8 @@ ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
   auto& entry = levels[v1::at(wanted)];
   if (!entry) {
     ArmBasis basis{model, order, elements, balance == ArmBalance::collocated};
-    if (const auto resolutions = resolutions_of(options); !resolutions.empty()) {
-      const Resolution chosen = resolution_at(resolutions, wanted);
+    if (level_count(options) > 1) {
+      const Resolution chosen = resolution_at(options, wanted);
       basis.order = chosen.order, basis.elements = chosen.elements;
     }
     entry = std::make_unique<ArmRod>(make_rod(arm, basis, breaks));
@@ -331,162 +266,123 @@ ArmWorkspace::~ArmWorkspace() = default;
 ArmWorkspace::ArmWorkspace(ArmWorkspace&&) noexcept = default;
 ArmWorkspace& ArmWorkspace::operator=(ArmWorkspace&&) noexcept = default;
 
+namespace {
+
+/// The rod of a level with the loads and holds of this question.
+class AskedRods {
+ public:
+  AskedRods(const Arm& arm, const ArmLoad& load, const ArmOptions& options, ArmWorkspace::Impl& impl)
+      : arm_(arm),
+        load_(load),
+        options_(options),
+        impl_(impl) {
+    for (const PointLoad& point : load.points) breaks_.push_back(point.place);
+    impl_.at(arm, options, breaks_, 0);
+  }
+  LoadedRod& at(int level) {
+    ArmRod& entry = impl_.at(arm_, options_, breaks_, level);
+    set_loads(arm_, load_, entry.model, entry.rod.work().loads);
+    if (entry.lean) set_loads(arm_, load_, entry.lean->model, entry.lean->rod.work().loads);
+    if (!impl_.knows_rest) {
+      std::fill(entry.rod.work().y.begin(), entry.rod.work().y.end(), 0.0);
+      sweep_out(entry.model, entry.rod.work());
+      impl_.rest_lengths = entry.rod.work().lengths;
+      impl_.knows_rest = true;
+    }
+    set_holds(arm_, impl_, entry.rod);
+    return entry.rod;
+  }
+  /// With coordinates and tensions of another level.
+  LoadedRod& at(int level, int from) {
+    LoadedRod& rod = at(level);
+    if (level != from) carry_over(known(from), rod);
+    return rod;
+  }
+  /// One that is as the question has it.
+  LoadedRod& known(int level) { return impl_.levels[v1::at(level)]->rod; }
+
+ private:
+  const Arm& arm_;
+  const ArmLoad& load_;
+  const ArmOptions& options_;
+  ArmWorkspace::Impl& impl_;
+  std::vector<double> breaks_;
+};
+
+/// Up the ladder until it says that the answer is found; iterations are those of all steps together.
+/// @param first the ladder's first step, which is not made yet
+template <class Solve>
+strain::Relaxed climb(ResolutionLadder& ladder, ResolutionLadder::Step step, AskedRods& rods, Solve solve) {
+  strain::Relaxed found;
+  int iterations = 0;
+  while (step.kind != ResolutionLadder::Step::answer) {
+    if (step.kind == ResolutionLadder::Step::compare) {
+      const strain::Approach near =
+          rods.at(step.level).approach(rods.known(step.from), 1e-3 * ladder.wanted());
+      iterations += near.iterations;
+      step = ladder.after_comparison(near);
+      continue;
+    }
+    LoadedRod& rod = rods.at(step.level, step.from);
+    const strain::Relaxed one = solve(rod);
+    iterations += one.iterations;
+    step = ladder.after_solve(
+        {one.status == Status::converged, size_of_highest(rod.model(), rod.work().y), tip_of(rod)});
+    if (ladder.stands()) found = one;
+  }
+  found.iterations = iterations;
+  return found;
+}
+
+/// What cannot be asked of this arm, or of this workspace.
+Report refusal(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load,
+               const ArmOptions& options, const ArmWorkspace::Impl& impl) {
+  if (impl.robot != arm.identity)
+    return {Status::bad_input, 0, 0, FixedText<240>("the workspace is for another robot")};
+  if (const auto text = misfit(arm, commands, load); !text.empty()) return {Status::bad_input, 0, 0, text};
+  return fits_balance(arm, commands, load, options);
+}
+
+}  // namespace
+
 const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load,
                             const ArmOptions& options, ArmWorkspace& work) {
   ArmWorkspace::Impl& impl = work.impl();
   ArmState& state = impl.state;
-  state.report = {};
-  if (impl.robot != arm.identity) {
-    state.report = {Status::bad_input, 0, 0, FixedText<240>("the workspace is for another robot")};
-    return state;
-  }
-  if (const auto text = misfit(arm, commands, load); !text.empty()) {
-    state.report = {Status::bad_input, 0, 0, text};
-    return state;
-  }
-  if (const Report found = fits_balance(arm, commands, load, options); !found.ok()) {
-    state.report = found;
-    return state;
-  }
+  state.report = refusal(arm, commands, load, options, impl);
+  if (!state.report.ok()) return state;
   std::copy(commands.begin(), commands.end(), impl.commands.begin());
-  std::vector<double> breaks;
-  for (const PointLoad& point : load.points) breaks.push_back(point.place);
-  const int before = impl.level, count = level_count(options);
-  impl.at(arm, options, breaks, 0);
+  const int before = impl.level;
+  AskedRods rods(arm, load, options, impl);
   const bool warm = options.from_last && before >= 0 && impl.level == before;
-  if (!warm) impl.level = 0;
   strain::RelaxOptions relax;
   relax.max_iterations = options.max_iterations;
   relax.tolerance = options.tolerance;
   relax.stop = [&work] { return work.stop.stop_requested(); };
-  const auto ready = [&](int level) -> LoadedRod& {  // with loads and holds of this question
-    ArmRod& entry = impl.at(arm, options, breaks, level);
-    set_loads(arm, load, entry.model, entry.rod.work().loads);
-    if (entry.lean) set_loads(arm, load, entry.lean->model, entry.lean->rod.work().loads);
-    if (!impl.knows_rest) {
-      std::fill(entry.rod.work().y.begin(), entry.rod.work().y.end(), 0.0);
-      sweep_out(entry.model, entry.rod.work());
-      impl.rest_lengths = entry.rod.work().lengths;
-      impl.knows_rest = true;
-    }
-    set_holds(arm, impl, entry.rod);
-    return entry.rod;
-  };
-  const double wanted = options.accuracy * arm.length();
-  const bool refines = count > 1 && options.accuracy > 0;
-  LoadedRod* rod = &ready(impl.level);
-  if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
-  if (!warm && !options.from_curvatures.empty())
-    take_curvatures(options.from_curvatures, rod->model(), rod->work().y);
-  bool knows = warm;  // how large the error is, from the question before
-  if (const int coarser = coarser_than(impl.level); warm && refines && coarser >= 0) {
-    const double shrunk = std::min(1.0, size_of_highest(rod->model(), rod->work().y) / impl.checked_size);
-    knows = !(impl.checked * shrunk * shrunk * error_ratio(options, coarser, impl.level) <= 0.3 * wanted);
-  }
-  if (warm && !knows) {
-    const int coarser = coarser_than(impl.level);
-    LoadedRod& lighter = ready(coarser);  // what came before was harder to resolve
-    carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
-    if (impl.balances) lighter.expect(rod->tensions());
-    impl.level = coarser;
-    rod = &lighter;
-  } else if (warm && impl.balances) {
-    rod->expect(rod->tensions());
-  }
-  impl.balances = false;
   const bool by_energy = options.balance == ArmBalance::energy;
-  strain::Relaxed found =
-      by_energy ? rod->relax(relax) : relax_published(arm, commands, options, relax, warm, *rod);
-  if (!refines) impl.checked = 0;
-  // What is to be told of further steps: all iterations.
-  const auto take = [&found](const strain::Relaxed& last) {
-    const int spent = found.iterations;
-    found = last;
-    found.iterations += spent;
-  };
-  // Whether the order before does with the elements of a level; then that is the answer.
-  // @param off by how much the tip of the level is off at most [m]
-  const auto leaner_does = [&](const LoadedRod& finer, int next, const std::array<double, 3>& tip,
-                               double off) {
-    LoadedRod& lean = ready(next - 1);
-    carry_over(finer, lean);
-    const strain::Relaxed other = lean.relax(relax);
-    found.iterations += other.iterations;
-    const auto there = tip_of(lean);
-    const double all = off + std::hypot(there[0] - tip[0], there[1] - tip[1], there[2] - tip[2]);
-    if (other.status != Status::converged || all > wanted) return false;
-    impl.level = next - 1;
-    impl.checked = all;
-    impl.checked_size = size_of_highest(lean.model(), lean.work().y);
-    rod = &lean;
-    found.iterations -= other.iterations;
-    take(other);
-    return true;
-  };
-  while (refines && found.status == Status::converged) {
-    const double size = size_of_highest(rod->model(), rod->work().y);
-    const double grown = std::max(1.0, size / impl.checked_size);
-    if (knows && grown <= 1.5 && impl.checked * grown * grown <= wanted) break;
-    knows = false;
-    const int next = finer_than(impl.level);
-    if (next >= count && impl.level % 2 == 0) break;
-    if (next >= count) {  // nothing has more elements: back to where the last step began
-      LoadedRod& lighter = ready(impl.level - 1);
-      carry_over(*rod, lighter);
-      --impl.level;
-      rod = &lighter;
-      take(lighter.relax(relax));
-      continue;
-    }
-    LoadedRod& finer = ready(next);
-    const double ratio = error_ratio(options, impl.level, next);
-    const strain::Approach near = finer.approach(*rod, 1e-3 * wanted);
-    found.iterations += near.iterations;
-    if (near.close && near.moved * ratio / (ratio - 1) <= wanted) {
-      impl.checked = near.moved * ratio / (ratio - 1);
-      impl.checked_size = size;
-      break;
-    }
-    if (near.close) {
-      const double left = near.moved / (ratio - 1);  // of the finer one
-      if (left <= wanted && near.moved < 1e-3 * arm.length() &&
-          leaner_does(finer, next, near.tip, left + near.rest))
-        break;
-      if (const int to = level_for(options, next, left, 0.5 * wanted); to != next) {
-        LoadedRod& there = ready(to);
-        carry_over(finer, there);
-        impl.level = to;
-        impl.checked = left;
-        rod = &there;
-        take(there.relax(relax));
-        continue;
-      }
-    } else {
-      carry_over(*rod, finer);
-    }
-    const strain::Relaxed again = finer.relax(relax);
-    found.iterations += again.iterations;
-    const auto coarse = tip_of(*rod), fine = tip_of(finer);
-    const double moved = std::hypot(fine[0] - coarse[0], fine[1] - coarse[1], fine[2] - coarse[2]);
-    impl.checked = moved * ratio / (ratio - 1);
-    impl.checked_size = size;
-    if (again.status == Status::converged && impl.checked <= wanted) break;
-    impl.level = next;
-    rod = &finer;
-    const int spent = found.iterations;
-    found = again;
-    found.iterations = spent;
-    impl.checked = moved / (ratio - 1);
-    impl.checked_size = size_of_highest(finer.model(), finer.work().y);
-    if (found.status != Status::converged || impl.checked > wanted || moved >= 1e-3 * arm.length()) continue;
-    leaner_does(finer, next, fine, impl.checked);
-    break;
+  ResolutionLadder ladder(options, arm.length(), impl);
+  ResolutionLadder::Step first =
+      ladder.begin(warm, warm ? size_of_highest(impl.rod().model(), impl.rod().work().y) : 0);
+  LoadedRod& rod = rods.at(first.level);
+  if (!warm && !options.from_curvatures.empty()) {
+    take_curvatures(options.from_curvatures, rod.model(), rod.work().y);
+  } else if (!warm) {
+    std::fill(rod.work().y.begin(), rod.work().y.end(), 0.0);
+  } else {
+    const LoadedRod& last = rods.known(first.from);
+    if (first.level != first.from) carry_over(last.model(), last.work(), rod.model(), rod.work().y);
+    if (impl.balances) rod.expect(last.tensions());
   }
+  first.from = first.level;
+  impl.balances = false;
+  const strain::Relaxed found = climb(ladder, first, rods, [&](LoadedRod& asked) {
+    return by_energy ? asked.relax(relax) : relax_published(arm, commands, options, relax, warm, asked);
+  });
   state.resolution = impl.checked;
   impl.balances = found.status == Status::converged;
-  set_report(state.report, found, impl, *rod);
+  set_report(state.report, found, impl, impl.rod());
   if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));
-  if (refines && state.report.ok() && state.resolution > 10 * wanted) {
+  if (ladder.refines() && state.report.ok() && state.resolution > 10 * ladder.wanted()) {
     state.report.status = Status::stalled;
     state.report.message = FixedText<240>(fmt::format(
         "the finest polynomials still move the tip by {:.1e} m: loads or tensions are too large for this arm",

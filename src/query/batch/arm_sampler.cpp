@@ -9,6 +9,7 @@
 #include <exception>
 #include <memory>
 
+#include "kinematics/arms/arm_lanes.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/row_places.hpp"
 #include "sinew/base/numbers.hpp"
@@ -65,30 +66,49 @@ std::optional<ArmOutput> output_of(const std::string& path, const Arm& arm) {
   return {};
 }
 
+/// Rows of a path that follow one another, each stretch in a lane.
+constexpr std::size_t path_stretch = 32;
+/// Fewer rows, or stretches, than this are quicker one after the other.
+constexpr std::size_t least_in_lanes = 4;
+
+bool fits_lanes(const AskedArm& asked) {
+  const ArmLoad& load = asked.load;
+  const auto is_none = [](std::span<const double> values) {
+    return std::ranges::all_of(values, [](double x) { return x == 0; });
+  };
+  return ArmLanes::fits(asked.arm, asked.options) && load.points.empty() && !load.gravity &&
+         is_none(load.following) && is_none(load.along) && is_none(load.following_along) &&
+         std::ranges::all_of(asked.held, [](TendonHeld held) { return held == TendonHeld::tension; });
+}
+
 class ArmSampler {
  public:
   explicit ArmSampler(std::shared_ptr<const AskedArm> asked)
       : asked_(std::move(asked)),
         work_(asked_->arm),
         commands_(asked_->arm.tendons.size()),
-        load_(asked_->load) {}
+        load_(asked_->load) {
+    if (fits_lanes(*asked_)) lanes_ = std::make_unique<ArmLanes>(asked_->arm, asked_->options);
+  }
 
   void operator()(const SampleBlock& block) {
+    if (lanes_ && block.count > (least_in_lanes - 1) * (asked_->is_path ? path_stretch : 1)) {
+      in_lanes(block);
+      return;
+    }
     work_.stop = StopToken(*block.stop);
     bool follows = false;
     for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
-      for (std::size_t o = 0; o < asked_->outputs.size(); ++o) block.output(o, k) = not_a_number;
+      clear(block, k);
       try {
-        if (!take(block, k)) {
+        if (!take(block, k, commands_, load_)) {
           block.statuses[k] = refused;
           follows = false;
           continue;
         }
         const ArmState& state = solve(follows);
-        const Status status = state.report.status;
-        if (status != Status::bad_input && status != Status::unsupported) put(block, k, state);
-        block.statuses[k] = status == Status::unsupported ? not_supported : sample_status(status);
-        follows = asked_->is_path && status == Status::converged;
+        tell(block, k, state);
+        follows = asked_->is_path && state.report.ok();
       } catch (const std::exception&) {
         block.statuses[k] = failed_inside;
         follows = false;
@@ -97,17 +117,52 @@ class ArmSampler {
   }
 
  private:
+  void in_lanes(const SampleBlock& block) {
+    for (std::size_t k = 0; k < block.count; ++k) {
+      clear(block, k);
+      block.statuses[k] = not_computed;
+    }
+    try {
+      lanes_->solve(
+          block.count, asked_->is_path ? path_stretch : 1,
+          [&](std::size_t k, std::span<TendonCommand> commands, ArmLoad& load) {
+            return take(block, k, commands, load);
+          },
+          [&](std::size_t k, const ArmState* state) {
+            if (state)
+              tell(block, k, *state);
+            else
+              block.statuses[k] = refused;
+            ++*block.done;
+          },
+          StopToken(*block.stop));
+    } catch (const std::exception&) {
+      for (std::size_t k = 0; k < block.count; ++k)
+        if (block.statuses[k] == not_computed) block.statuses[k] = failed_inside;
+      lanes_ = std::make_unique<ArmLanes>(asked_->arm, asked_->options);
+    }
+  }
+
+  void clear(const SampleBlock& block, std::size_t k) const {
+    for (std::size_t o = 0; o < asked_->outputs.size(); ++o) block.output(o, k) = not_a_number;
+  }
+  void tell(const SampleBlock& block, std::size_t k, const ArmState& state) const {
+    const Status status = state.report.status;
+    if (status != Status::bad_input && status != Status::unsupported) put(block, k, state);
+    block.statuses[k] = status == Status::unsupported ? not_supported : sample_status(status);
+  }
+
   /// The numbers of a row; false where a query would not take them.
-  bool take(const SampleBlock& block, std::size_t k) {
+  bool take(const SampleBlock& block, std::size_t k, std::span<TendonCommand> commands, ArmLoad& load) const {
     constexpr double most = 1e9;
-    for (std::size_t i = 0; i < commands_.size(); ++i) {
+    for (std::size_t i = 0; i < commands.size(); ++i) {
       const double value = asked_->tendons[i].at(block, k);
       if (!(value >= (asked_->held[i] == TendonHeld::tension ? 0 : -most) && value <= most)) return false;
-      commands_[i] = {asked_->held[i], value};
+      commands[i] = {asked_->held[i], value};
     }
     for (std::size_t i = 0; i < 6; ++i) {
-      load_.wrench[i] = asked_->wrench[i].at(block, k);
-      if (!std::isfinite(load_.wrench[i])) return false;
+      load.wrench[i] = asked_->wrench[i].at(block, k);
+      if (!std::isfinite(load.wrench[i])) return false;
     }
     return true;
   }
@@ -122,7 +177,7 @@ class ArmSampler {
     return arm_forward(asked_->arm, commands_, load_, options, work_);
   }
 
-  void put(const SampleBlock& block, std::size_t k, const ArmState& state) {
+  void put(const SampleBlock& block, std::size_t k, const ArmState& state) const {
     const SpatialPose tip = spatial_pose(state.tip);
     for (std::size_t o = 0; o < asked_->outputs.size(); ++o) {
       const auto [of, i] = asked_->outputs[o];
@@ -157,6 +212,7 @@ class ArmSampler {
   ArmWorkspace work_;
   std::vector<TendonCommand> commands_;
   ArmLoad load_;
+  std::unique_ptr<ArmLanes> lanes_;  ///< if the question fits them
 };
 
 }  // namespace
@@ -183,7 +239,9 @@ SamplerKind plan_arms(Context& of_robot, const RowPlaces& rows) {
     if (!found) return {};
     asked.outputs.push_back(*found);
   }
-  return sampler_kind<ArmSampler>("arms row by row", {32, 512}, std::move(asked));
+  if (!fits_lanes(asked)) return sampler_kind<ArmSampler>("arms row by row", {32, 512}, std::move(asked));
+  const std::size_t least = asked.is_path ? 2048 : 256;
+  return sampler_kind<ArmSampler>("arms in lanes", {least, 4096}, std::move(asked));
 }
 
 }  // namespace sinew::inline v1

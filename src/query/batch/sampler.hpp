@@ -101,7 +101,8 @@ SamplerKind plan_rods(Context& context,
                       const RowPlaces& rows);  ///< forward, eight stretches of rows in lanes
 SamplerKind plan_poses(Context& context, const RowPlaces& rows);     ///< inverse and velocity, in lanes
 SamplerKind plan_sections(Context& context, const RowPlaces& rows);  ///< of serial robots, in lanes
-SamplerKind plan_arms(Context& context, const RowPlaces& rows);      ///< equilibria, one after the other
+SamplerKind plan_arms(Context& context,
+                      const RowPlaces& rows);  ///< equilibria, in lanes where tensions are held
 /// @}
 
 /// The quickest there is.
