@@ -12,9 +12,9 @@
 
 #include "io/parse.hpp"
 #include "report.hpp"
+#include "sinew/batch.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/arm.hpp"
-#include "sinew/query/batch.hpp"
 
 namespace sinew::bench {
 namespace {

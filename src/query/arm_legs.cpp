@@ -3,6 +3,7 @@
 #include <array>
 
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "query/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"

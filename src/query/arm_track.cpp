@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "query/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/wants.hpp"

@@ -7,10 +7,11 @@
 
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "query/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
-#include "sinew/kinematics/arm_load_path.hpp"
+#include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {
 

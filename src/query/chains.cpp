@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "io/reader.hpp"
 #include "query/chain_sensing.hpp"
 #include "query/chain_solutions.hpp"
 

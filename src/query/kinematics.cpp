@@ -6,7 +6,6 @@
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
 #include "sinew/analysis/shape.hpp"
-#include "sinew/kinematics/assembly_modes.hpp"
 #include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v1 {

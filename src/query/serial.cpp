@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "io/quantity.hpp"
-#include "sinew/analysis/serial_shape.hpp"
-#include "sinew/kinematics/resolved_rate.hpp"
+#include "io/reader.hpp"
+#include "math/linalg.hpp"
+#include "sinew/analysis/shape.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 namespace sinew::inline v1 {
 

@@ -6,7 +6,8 @@
 #include "io/read_pose.hpp"
 #include "kinematics/three_arcs.hpp"
 #include "query/serial.hpp"
-#include "sinew/kinematics/serial_inverse.hpp"
+#include "sinew/kinematics/serial.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -1,4 +1,4 @@
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 #include <fmt/format.h>
 
@@ -6,14 +6,17 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "io/actuation.hpp"
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "query/fields/fields.hpp"
 #include "query/handlers.hpp"
 #include "query/tree_session.hpp"
 #include "query/unit_hint.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "tendon/theta_is.hpp"
 
 namespace sinew::inline v1 {
 namespace {

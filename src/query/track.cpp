@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "query/chains.hpp"
 #include "query/context.hpp"
 #include "query/rods.hpp"

@@ -113,7 +113,7 @@ void Search::pose(const std::string& path, const Node& node) {
 
 void Search::inputs(const std::string& path, const Node& list) {
   for (std::size_t k = 0; k < std::min(list.items.size(), inputs_.size()); ++k) {
-    if (inputs_[k].kind.dimension == Dimension::angle)
+    if (inputs_[k].dimension == Dimension::angle)
       angle(joined(path, k), list.items[k]);
     else
       length(joined(path, k), list.items[k], far_length);
@@ -224,7 +224,7 @@ void Search::numbers(const Field& field, const std::string& path, const Node& no
 /// Velocities of the platform: of as much as its size a second.
 void Search::twist(const std::string& path, const Node& list) {
   const bool is_on_rods =
-      std::ranges::any_of(inputs_, [](const InputOfLeg& input) { return input.kind.name == "length"; });
+      std::ranges::any_of(inputs_, [](const InputOfLeg& input) { return input.name == "length"; });
   const std::size_t shifts = list.items.size() != 3 ? 3 : is_on_rods ? 1 : 2;  // of three inputs vz, wx, wy
   for (std::size_t k = 0; k < std::min(shifts, list.items.size()); ++k)
     length(joined(path, k), list.items[k], far_length);

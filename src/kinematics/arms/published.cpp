@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "base/at.hpp"
-#include "sinew/math/linalg.hpp"
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::inline v1 {
 namespace {

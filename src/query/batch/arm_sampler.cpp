@@ -9,9 +9,9 @@
 #include <exception>
 #include <memory>
 
+#include "io/arm_file.hpp"
 #include "query/batch/query_entries.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/io/arm_file.hpp"
 #include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {

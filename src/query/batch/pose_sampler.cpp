@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "query/batch/query_entries.hpp"
-#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/analysis/velocity.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
 

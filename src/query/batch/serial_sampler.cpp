@@ -7,11 +7,11 @@
 #include <memory>
 #include <variant>
 
+#include "io/arm_file.hpp"
+#include "io/serial_file.hpp"
 #include "query/batch/query_entries.hpp"
 #include "query/serial.hpp"
-#include "sinew/io/arm_file.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
 
 namespace sinew::inline v1 {
 namespace {

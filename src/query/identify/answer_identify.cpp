@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/measured/measurement.hpp"
+#include "io/reader.hpp"
 #include "query/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/identify/identification.hpp"
