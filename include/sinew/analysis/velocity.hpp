@@ -45,7 +45,7 @@ SINEW_API std::string_view to_string(LineClass kind) noexcept;
 /// The one motion that lines of rank 5 leave free, base frame.
 struct Screw {
   double pitch;            ///< [m/rad]; 0: a rotation, infinite: a translation
-  Vec3<double> point;      ///< of the axis, nearest to O′; O′ itself for a translation
+  Vec3<double> point;      ///< of the axis, nearest to O′; O′ itself for a translation [m]
   Vec3<double> direction;  ///< unit; of its components z, y, x the first that is not zero is positive
 };
 
@@ -54,10 +54,10 @@ struct TypeTwo {
   bool singular = false;  ///< rank below the freedoms; true too where nothing can be told (`undefined`)
   int rank = 0;           ///< number of σᵢ/σmax above `type_2_tolerance`
   LineClass kind = LineClass::regular;
-  /// σmax/σmin of the homogenised rows. NaN above 1e15, where it says how they were rounded, and where there
-  /// are fewer rows than freedoms.
+  /// σmax/σmin of the homogenised rows [1]. NaN above 1e15, where it says how they were rounded, and where
+  /// there are fewer rows than freedoms.
   double condition = std::numeric_limits<double>::quiet_NaN();
-  std::optional<Vec3<double>> point;  ///< `concurrent` (z = 0) or `bundle`: where the lines meet, base frame
+  std::optional<Vec3<double>> point;  ///< `concurrent` (z = 0), `bundle`: where lines meet, base frame [m]
   std::optional<Screw> screw;         ///< rank 5 in space
 };
 
