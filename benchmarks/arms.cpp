@@ -14,12 +14,12 @@
 #include <random>
 
 #include "instruction_sets.hpp"
+#include "io/arm_file.hpp"
 #include "io/parse.hpp"
 #include "report.hpp"
-#include "sinew/io/arm_file.hpp"
+#include "sinew/batch.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/arm.hpp"
-#include "sinew/query/batch.hpp"
 
 namespace sinew::bench {
 namespace {

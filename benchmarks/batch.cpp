@@ -11,7 +11,7 @@
 
 #include "report.hpp"
 #include "sinew.h"
-#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/analysis/velocity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/inverse.hpp"

@@ -8,7 +8,7 @@
 #include "instruction_sets.hpp"
 #include "report.hpp"
 #include "robot/parallel.hpp"
-#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/analysis/velocity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/inverse.hpp"
 

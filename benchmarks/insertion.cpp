@@ -9,7 +9,7 @@
 
 #include "plan/compressor.hpp"
 #include "scenes.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/plan/insertion.hpp"
 
 namespace sinew::bench {

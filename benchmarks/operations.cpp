@@ -22,7 +22,6 @@
 #include "kinematics/chain.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/assembly_modes.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"

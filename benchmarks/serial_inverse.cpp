@@ -8,9 +8,9 @@
 #include <numbers>
 #include <random>
 
+#include "math/linalg.hpp"
 #include "report.hpp"
-#include "sinew/kinematics/resolved_rate.hpp"
-#include "sinew/kinematics/serial_inverse.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 namespace sinew::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew::cli {
 

@@ -7,8 +7,10 @@
 #include <numbers>
 
 #include "arm_path.hpp"
+#include "io/arm_file.hpp"
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
+#include "io/serial_file.hpp"
 #include "query/fields/fields.hpp"
 #include "show.hpp"
 #include "sinew/io/table.hpp"

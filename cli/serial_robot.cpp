@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "io/arm_file.hpp"
+#include "io/serial_file.hpp"
 #include "io/visible.hpp"
 #include "request.hpp"
-#include "sinew/io/arm_file.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
 
 namespace sinew::cli {
 

@@ -8,11 +8,11 @@
 #include <thread>
 
 #include "io/parse.hpp"
+#include "io/serial_file.hpp"
 #include "queries.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew::server {
 namespace {

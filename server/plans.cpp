@@ -16,7 +16,7 @@
 #include "plan/plan_table.hpp"
 #include "robots.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/plan/check.hpp"
+#include "sinew/plan/insertion.hpp"
 #include "sinew/study/result.hpp"
 
 namespace sinew::server {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sinew/base/error.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew::server {
 

@@ -27,6 +27,8 @@ ROWS = [
     ["kernel", "base"],
 ]
 SIBLINGS = {("solve", "math"), ("cli", "server")}
+# Headers at the top of include/sinew that are themselves what a layer has to say; the others there list headers.
+TOP = {"session.hpp": "query", "batch.hpp": "query", "units.hpp": "base"}
 APPS = set(ROWS[0])
 LAYERS = [layer for row in ROWS for layer in row]
 HEIGHT = {layer: len(ROWS) - i for i, row in enumerate(ROWS) for layer in row}
@@ -43,7 +45,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def source_files(root):
-    """(path, layer) of every file that lives in a layer; the layer is None for one at the top of include/sinew."""
+    """(path, layer) of every file that lives in a layer; the layer is None for one at the top of include/sinew that lists others."""
     for folder in ["include/sinew", "src", "kernel/include/sinew", *sorted(APPS)]:
         for path in sorted((root / folder).rglob("*")):
             inside = path.relative_to(root / folder)
@@ -54,14 +56,14 @@ def source_files(root):
             elif len(inside.parts) > 1:
                 yield path, inside.parts[0]
             elif folder == "include/sinew":
-                yield path, None
+                yield path, TOP.get(path.name)
 
 
 def included_layer(target):
     """The layer of `sinew/robot/robot.hpp` or of a private `robot/assembly.hpp`; '' at the top of include/sinew."""
     parts = target.split("/")
     if parts[0] == "sinew":
-        return parts[1] if len(parts) > 2 else ""
+        return parts[1] if len(parts) > 2 else TOP.get(parts[1], "")
     return parts[0] if len(parts) > 1 and parts[0] in HEIGHT else None
 
 

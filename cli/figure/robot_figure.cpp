@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "io/arm_file.hpp"
+#include "io/serial_file.hpp"
 #include "show.hpp"
 #include "sinew/math/so3.hpp"
 

@@ -8,8 +8,10 @@
 #include <iterator>
 #include <numbers>
 
+#include "io/arm_file.hpp"
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
+#include "io/serial_file.hpp"
 #include "show.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "terminal.hpp"

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "io/arm_file.hpp"
 #include "io/quantity.hpp"
+#include "io/serial_file.hpp"
 #include "io/visible.hpp"
 #include "query/identify/identification.hpp"
 #include "request.hpp"
 #include "show_identified.hpp"
-#include "sinew/io/arm_file.hpp"
 #include "sinew/io/measured_arm.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 #include "waiting.hpp"

@@ -5,7 +5,7 @@
 
 #include "io/figure.hpp"
 #include "request.hpp"
-#include "sinew/analysis/singularity_map.hpp"
+#include "sinew/analysis/singularity.hpp"
 
 namespace sinew::cli {
 

@@ -11,7 +11,7 @@
 #include "plan/compressor.hpp"
 #include "plan/plan_table.hpp"
 #include "request.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/plan/insertion.hpp"
 #include "sinew/study/result.hpp"
 #include "terminal.hpp"

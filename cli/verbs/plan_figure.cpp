@@ -12,7 +12,7 @@
 #include "plan/insertion_figure.hpp"
 #include "plan/plan_table.hpp"
 #include "request.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 #include "sinew/plan/insertion.hpp"
 #include "sinew/study/result.hpp"

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "arm_path.hpp"
+#include "io/arm_file.hpp"
+#include "io/serial_file.hpp"
 #include "io/visible.hpp"
 #include "question.hpp"
 #include "sinew/base/numbers.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sinew/base/limits.hpp"
-#include "sinew/math/linalg.hpp"
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::firmware {
 namespace {

@@ -7,11 +7,13 @@
 #include <stdexcept>
 #include <thread>
 
+#include "io/arm_file.hpp"
 #include "io/parse.hpp"
+#include "io/serial_file.hpp"
 #include "simulator/faults.hpp"
 #include "simulator/standard_input.hpp"
 #include "simulator/terminal.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 
 namespace sinew::firmware {
 namespace {

@@ -1,4 +1,5 @@
 #include "simulator/trajectory.hpp"
+#include "io/reader.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,47 @@
 /// @file session.hpp
-/// Questions and answers as JSON text, as the command, the server and other languages ask them.
+/// One request, one answer, in JSON: what the command, the server and every binding put their questions to.
+/// The fields are in docs/protocol.md; typed functions (kinematics/, analysis/) do the work.
 #pragma once
-#include "sinew/query/session.hpp"  // IWYU pragma: export
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "sinew/base/error.hpp"
+#include "sinew/base/stop.hpp"
+#include "sinew/io/node.hpp"
+
+namespace sinew::inline v1 {
+
+/// A robot opened for questions. Not for two threads at once: open one a thread.
+class SINEW_API Session {
+ public:
+  /// From a robot file. All errors of the file at once.
+  static Expected<Session> open(const std::string& path);
+  static Expected<Session> open(Document document);
+
+  /// One query `{"query": "forward", ...}` in, one answer out, without a line break. Never throws on bad
+  /// input: the answer then is `{"error": {"code", "where", "message"}}`.
+  std::string answer(std::string_view query);
+  /// The same from tree to tree, for who asks and reads in this process. The limits of texts, which keep
+  /// strangers harmless, do not apply: an answer may be as large as it is.
+  Document answer(const Document& query);
+
+  /// Solves that are under way end with status `stopped`, with the best they have, soon after `stop` is
+  /// requested; so does every later one, until another token is given.
+  void stop_on(StopToken stop);
+
+  /// Forgets the pose that `"start": "last"` begins at, as for another client: the session is as when it was
+  /// opened.
+  void forget();
+
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
+
+ private:
+  struct State;
+  explicit Session(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sinew::inline v1

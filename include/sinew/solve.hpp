@@ -2,16 +2,13 @@
 /// Typed questions about one configuration: each solved with a report, without heap in warm use.
 #pragma once
 #include "sinew/analysis/identify.hpp"             // IWYU pragma: export
-#include "sinew/analysis/serial_shape.hpp"         // IWYU pragma: export
 #include "sinew/analysis/shape.hpp"                // IWYU pragma: export
-#include "sinew/analysis/singularity_map.hpp"      // IWYU pragma: export
+#include "sinew/analysis/singularity.hpp"          // IWYU pragma: export
 #include "sinew/analysis/tendon_limits.hpp"        // IWYU pragma: export
-#include "sinew/analysis/type_2_distance.hpp"      // IWYU pragma: export
 #include "sinew/analysis/velocity.hpp"             // IWYU pragma: export
 #include "sinew/kinematics/arm.hpp"                // IWYU pragma: export
-#include "sinew/kinematics/arm_load_path.hpp"      // IWYU pragma: export
+#include "sinew/kinematics/arm_legs.hpp"           // IWYU pragma: export
 #include "sinew/kinematics/arm_path.hpp"           // IWYU pragma: export
-#include "sinew/kinematics/assembly_modes.hpp"     // IWYU pragma: export
 #include "sinew/kinematics/constrained_pose.hpp"   // IWYU pragma: export
 #include "sinew/kinematics/equilibrium.hpp"        // IWYU pragma: export
 #include "sinew/kinematics/equilibrium_curve.hpp"  // IWYU pragma: export
@@ -19,10 +16,7 @@
 #include "sinew/kinematics/force_sensing.hpp"      // IWYU pragma: export
 #include "sinew/kinematics/forward.hpp"            // IWYU pragma: export
 #include "sinew/kinematics/inverse.hpp"            // IWYU pragma: export
-#include "sinew/kinematics/resolved_rate.hpp"      // IWYU pragma: export
-#include "sinew/kinematics/rod_rates.hpp"          // IWYU pragma: export
 #include "sinew/kinematics/serial.hpp"             // IWYU pragma: export
-#include "sinew/kinematics/serial_inverse.hpp"     // IWYU pragma: export
 #include "sinew/kinematics/track.hpp"              // IWYU pragma: export
 #include "sinew/kinematics/trajectory.hpp"         // IWYU pragma: export
 #include "sinew/tendon/diagram.hpp"                // IWYU pragma: export

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "io/parse.hpp"
+#include "io/serial_file.hpp"
 #include "server/robots.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
 
 namespace sinew::server::device {
 namespace {

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "io/parse.hpp"
+#include "sinew/batch.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/query/batch.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 #include "sinew/solve/report.hpp"
 
 /// What `sinew_release` deletes, whatever it is.

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "analysis/lines.hpp"
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {

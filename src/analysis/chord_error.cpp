@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "sinew/base/assert.hpp"
+#include "base/assert.hpp"
 #include "sinew/kernel/arc.h"
 #include "sinew/kinematics/serial.hpp"
 #include "sinew/tendon/diagram.hpp"

@@ -12,7 +12,7 @@
 
 #include "analysis/pose_lanes-inl.hpp"
 #include "leg/hinged_strut.hpp"
-#include "sinew/base/units.hpp"
+#include "sinew/units.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sinew::inline v1::velocity_lanes {

@@ -1,9 +1,12 @@
-#include "sinew/analysis/lines.hpp"
+#include "sinew/analysis/velocity.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/base/assert.hpp"
+#include "analysis/lines.hpp"
+#include "base/assert.hpp"
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::inline v1 {
 namespace {

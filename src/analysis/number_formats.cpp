@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "analysis/rough_numbers.hpp"
-#include "sinew/base/assert.hpp"
+#include "base/assert.hpp"
 #include "sinew/kernel/fixed.h"
 #include "sinew/kernel/section.h"
 

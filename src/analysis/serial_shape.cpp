@@ -1,4 +1,5 @@
-#include "sinew/analysis/serial_shape.hpp"
+#include "link/bent_joint.hpp"
+#include "sinew/analysis/shape.hpp"
 
 namespace sinew::inline v1 {
 namespace {

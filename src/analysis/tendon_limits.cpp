@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "sinew/base/assert.hpp"
+#include "base/assert.hpp"
 #include "sinew/kernel/arc.h"
 #include "sinew/math/entire.hpp"
 

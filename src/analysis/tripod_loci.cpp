@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 #include "sinew/math/so3.hpp"
 
 namespace sinew::inline v1 {

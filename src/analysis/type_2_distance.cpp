@@ -1,4 +1,4 @@
-#include "sinew/analysis/type_2_distance.hpp"
+#include "sinew/analysis/singularity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
+#include "math/polygon.hpp"
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/analysis/velocity.hpp"

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "analysis/lines.hpp"
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
 #include "robot/arguments.hpp"
 #include "robot/parallel.hpp"
 #include "robot/pose.hpp"

@@ -1,4 +1,4 @@
-#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/analysis/velocity.hpp"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <variant>
 
-#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/analysis/velocity.hpp"
 
 namespace sinew::inline v1::velocity_lanes {
 

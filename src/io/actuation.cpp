@@ -1,4 +1,6 @@
 #include "io/actuation.hpp"
+#include "io/reader.hpp"
+#include "io/serial_file.hpp"
 
 #include <algorithm>
 

@@ -1,10 +1,12 @@
 /// @file actuation.hpp
-/// What moves the tendons of a serial robot or an arm, as files say it.
+/// What moves tendons and joints, as files say it.
 #pragma once
 #include <optional>
 
-#include "sinew/io/reader.hpp"
+#include "io/reader.hpp"
+#include "io/serial_file.hpp"
 #include "sinew/robot/serial.hpp"
+#include "tendon/theta_is.hpp"
 
 namespace sinew::inline v1 {
 
@@ -13,6 +15,9 @@ TendonMotor read_motor(Reader& motor);
 
 /// `{stiffness, outside}`.
 TendonStretch read_stretch(Reader& stretch);
+
+/// `tangent` or `chord`.
+SINEW_API ThetaIs read_theta_is(const Reader& word);
 
 /// Tolerance of a tendon where a file gives none [m]: a steel tendon as long as the robot stretches by 0.03 %
 /// at 60 MPa, and no encoder tells less than its step. With 0 a rounded number would be slack.

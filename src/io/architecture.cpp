@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "io/reader.hpp"
 #include "robot/catalog.hpp"
-#include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::inline v1 {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/read_material.hpp"
+#include "io/reader.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -1,6 +1,6 @@
 /// @file arm_backbone.hpp
 #pragma once
-#include "sinew/io/reader.hpp"
+#include "io/reader.hpp"
 #include "sinew/robot/arm.hpp"
 
 namespace sinew::inline v1 {

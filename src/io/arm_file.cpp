@@ -1,4 +1,4 @@
-#include "sinew/io/arm_file.hpp"
+#include "io/arm_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,16 +6,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/limits.hpp"
 #include "io/actuation.hpp"
 #include "io/arm_backbone.hpp"
 #include "io/arm_legs_file.hpp"
 #include "io/measured/measurement.hpp"
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "io/robot_size.hpp"
-#include "sinew/base/limits.hpp"
-#include "sinew/io/reader.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "io/serial_file.hpp"
 
 namespace sinew::inline v1 {
 namespace {

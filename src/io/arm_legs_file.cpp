@@ -4,10 +4,11 @@
 
 #include <algorithm>
 
+#include "base/limits.hpp"
 #include "io/read_place.hpp"
 #include "io/read_pose.hpp"
-#include "sinew/base/limits.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "io/reader.hpp"
+#include "io/serial_file.hpp"
 
 namespace sinew::inline v1 {
 namespace {

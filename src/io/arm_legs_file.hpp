@@ -1,8 +1,8 @@
 /// @file arm_legs_file.hpp
 /// Files of platforms on arms: legs whose link is of `type: elastic`. Format: docs/robot-files.md
 #pragma once
+#include "io/reader.hpp"
 #include "sinew/base/error.hpp"
-#include "sinew/io/reader.hpp"
 #include "sinew/robot/arm_legs.hpp"
 
 namespace sinew::inline v1 {

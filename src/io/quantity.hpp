@@ -7,7 +7,7 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/base/export.hpp"
-#include "sinew/base/units.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 

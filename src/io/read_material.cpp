@@ -1,4 +1,5 @@
 #include "io/read_material.hpp"
+#include "io/reader.hpp"
 
 namespace sinew::inline v1 {
 

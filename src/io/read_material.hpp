@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "sinew/io/reader.hpp"
+#include "io/reader.hpp"
 
 namespace sinew::inline v1 {
 

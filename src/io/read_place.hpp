@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/reader.hpp"
 #include "leg/space.hpp"
-#include "sinew/io/reader.hpp"
 
 namespace sinew::inline v1 {
 

@@ -1,5 +1,6 @@
 #include "io/read_pose.hpp"
 
+#include "io/reader.hpp"
 #include "math/tilt.hpp"
 
 namespace sinew::inline v1 {

@@ -1,7 +1,7 @@
 /// @file read_pose.hpp
 /// Poses as robot files and queries write them.
 #pragma once
-#include "sinew/io/reader.hpp"
+#include "io/reader.hpp"
 #include "sinew/math/se3.hpp"
 
 namespace sinew::inline v1 {

@@ -7,18 +7,21 @@
 #include <functional>
 #include <numbers>
 
+#include "base/limits.hpp"
+#include "io/actuation.hpp"
+#include "io/arm_file.hpp"
 #include "io/arm_legs_file.hpp"
 #include "io/builtin.hpp"
 #include "io/parse.hpp"
 #include "io/read_material.hpp"
 #include "io/read_place.hpp"
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "io/robot_size.hpp"
+#include "io/serial_file.hpp"
 #include "robot/parallel.hpp"
-#include "sinew/base/limits.hpp"
-#include "sinew/io/arm_file.hpp"
-#include "sinew/io/reader.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "tendon/input_kind.hpp"
+#include "tendon/theta_is.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -1,16 +1,16 @@
-#include "sinew/io/serial_file.hpp"
+#include "io/serial_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 
+#include "base/limits.hpp"
 #include "io/actuation.hpp"
+#include "io/arm_file.hpp"
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "io/robot_size.hpp"
-#include "sinew/base/limits.hpp"
-#include "sinew/io/arm_file.hpp"
-#include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::inline v1 {

@@ -8,9 +8,9 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "io/quantity.hpp"
 #include "io/read_bytes.hpp"
-#include "sinew/base/assert.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/node.hpp"
 

@@ -1,4 +1,4 @@
-#include "sinew/kinematics/assembly_modes.hpp"
+#include "sinew/kinematics/forward.hpp"
 
 #include <algorithm>
 #include <cmath>

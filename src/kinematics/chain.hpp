@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "base/limits.hpp"
 #include "robot/chains.hpp"
-#include "sinew/base/limits.hpp"
-#include "sinew/robot/workspace.hpp"
+#include "sinew/robot/robot.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {

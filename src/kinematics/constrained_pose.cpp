@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/limits.hpp"
 #include "robot/parallel.hpp"
 #include "robot/pose.hpp"
 #include "solve/newton.hpp"

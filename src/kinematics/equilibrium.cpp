@@ -14,6 +14,7 @@
 #include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
 #include "kinematics/spread.hpp"
+#include "math/linalg.hpp"
 #include "robot/arguments.hpp"
 
 namespace sinew::inline v1 {

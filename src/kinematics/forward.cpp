@@ -9,6 +9,7 @@
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "leg/platform_constraint.hpp"
 #include "sinew/solve/report.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 

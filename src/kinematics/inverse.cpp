@@ -8,6 +8,7 @@
 #include "robot/arguments.hpp"
 #include "robot/parallel.hpp"
 #include "robot/pose.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/linalg.hpp"
 #include "robot/limb_signs.hpp"
 #include "robot/pose.hpp"
 #include "solve/growing_load.hpp"

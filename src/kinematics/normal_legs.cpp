@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "sinew/base/limits.hpp"
-#include "sinew/math/linalg.hpp"
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1::detail {
 namespace {

@@ -5,8 +5,9 @@
 #include <new>
 #include <type_traits>
 
+#include "base/limits.hpp"
 #include "robot/parallel.hpp"
-#include "sinew/robot/workspace.hpp"
+#include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v1 {
 

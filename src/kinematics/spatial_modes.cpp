@@ -8,6 +8,8 @@
 #include "kinematics/four_bars.hpp"
 #include "kinematics/normal_legs.hpp"
 #include "kinematics/sort_poses.hpp"
+#include "math/linalg.hpp"
+#include "solve/message.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

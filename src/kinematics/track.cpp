@@ -2,12 +2,15 @@
 
 #include <cmath>
 
+#include "base/limits.hpp"
 #include "leg/project.hpp"
+#include "math/linalg.hpp"
 #include "robot/arguments.hpp"
 #include "robot/parallel.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "solve/continuation.hpp"
+#include "solve/message.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "leg/closure.hpp"
-#include "sinew/base/fixed_text.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 

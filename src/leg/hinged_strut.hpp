@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "leg/closure.hpp"
-#include "sinew/base/fixed_text.hpp"
-#include "sinew/base/units.hpp"
+#include "sinew/units.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 

@@ -12,8 +12,8 @@
 #include "leg/platform_constraint.hpp"
 #include "leg/space.hpp"
 #include "link/backbone.hpp"
-#include "sinew/base/fixed_text.hpp"
 #include "sinew/leg/state.hpp"
+#include "solve/message.hpp"
 #include "solve/roots.hpp"
 
 namespace sinew::inline v1 {

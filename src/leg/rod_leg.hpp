@@ -7,6 +7,7 @@
 
 #include "leg/space.hpp"
 #include "link/rod.hpp"
+#include "tendon/input_kind.hpp"
 #include "tendon/pair.hpp"
 
 namespace sinew::inline v1 {

@@ -13,8 +13,8 @@
 
 #include "link/tip.hpp"
 #include "math/inverse_sinc.hpp"
-#include "sinew/base/units.hpp"
 #include "sinew/math/entire.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 

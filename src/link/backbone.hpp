@@ -3,7 +3,7 @@
 #pragma once
 #include <optional>
 
-#include "sinew/base/units.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "sinew/base/assert.hpp"
+#include "base/assert.hpp"
 #include "sinew/math/se2.hpp"
 
 namespace sinew::inline v1 {

@@ -8,8 +8,8 @@
 #include <array>
 #include <span>
 
-#include "sinew/base/assert.hpp"
-#include "sinew/base/limits.hpp"
+#include "base/assert.hpp"
+#include "base/limits.hpp"
 #include "sinew/link/prb_discretisation.hpp"
 #include "sinew/math/vec.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "link/tip.hpp"
-#include "sinew/base/units.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string_view>
 
-#include "sinew/base/units.hpp"
 #include "sinew/math/vec.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 

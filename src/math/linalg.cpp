@@ -1,4 +1,4 @@
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sinew/base/assert.hpp"
+#include "base/assert.hpp"
+#include "base/limits.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {

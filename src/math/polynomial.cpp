@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/base/assert.hpp"
+#include "base/assert.hpp"
+#include "math/polygon.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -1,4 +1,6 @@
 #include "plan/body.hpp"
+#include "link/bent_joint.hpp"
+#include "link/bent_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
+#include "sinew/plan/insertion.hpp"
 #include "sinew/plan/scene.hpp"
-#include "sinew/plan/steps.hpp"
 
 namespace sinew::inline v1 {
 

@@ -1,4 +1,4 @@
-#include "sinew/plan/check.hpp"
+#include "sinew/plan/insertion.hpp"
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
@@ -17,6 +17,7 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/capsule.h>
 
+#include "math/polygon.hpp"
 #include "plan/body.hpp"
 #include "plan/deadline.hpp"
 #include "plan/obstacles.hpp"

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "io/figure.hpp"
-#include "sinew/plan/check.hpp"
+#include "sinew/plan/insertion.hpp"
 #include "sinew/plan/scene.hpp"
 
 namespace sinew::inline v1 {

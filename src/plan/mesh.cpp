@@ -1,4 +1,4 @@
-#include "sinew/plan/mesh.hpp"
+#include "sinew/plan/scene.hpp"
 
 #include <fmt/format.h>
 

@@ -24,7 +24,7 @@
 #include <string_view>
 
 #include "io/visible.hpp"
-#include "sinew/plan/mesh.hpp"
+#include "sinew/plan/scene.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 #include <span>
 
-#include "sinew/plan/mesh.hpp"
+#include "sinew/plan/scene.hpp"
 
 namespace sinew::inline v1 {
 

@@ -11,9 +11,9 @@
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
-#include "sinew/io/reader.hpp"
+#include "io/reader.hpp"
+#include "io/serial_file.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
 
 namespace sinew::inline v1 {
 namespace {

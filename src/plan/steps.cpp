@@ -1,4 +1,4 @@
-#include "sinew/plan/steps.hpp"
+#include "sinew/plan/insertion.hpp"
 
 #include <algorithm>
 #include <cmath>

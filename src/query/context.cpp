@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "math/tilt.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
@@ -105,7 +106,7 @@ std::vector<double> read_inputs(Context& context, const Reader& inputs) {
   const auto items = inputs.items(kinds.size());
   std::vector<double> values;
   for (std::size_t k = 0; k < items.size() && k < kinds.size(); ++k)
-    values.push_back(items[k].quantity(kinds[k].kind.dimension));
+    values.push_back(items[k].quantity(kinds[k].dimension));
   values.resize(kinds.size());
   return values;
 }

@@ -4,13 +4,13 @@
 #include <limits>
 #include <optional>
 
+#include "io/reader.hpp"
 #include "query/answer/value.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
-#include "sinew/io/reader.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
-#include "sinew/robot/workspace.hpp"
+#include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v1 {
 

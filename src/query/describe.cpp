@@ -3,6 +3,8 @@
 #include "query/context.hpp"
 #include "query/handlers.hpp"
 #include "robot/parallel.hpp"
+#include "tendon/input_kind.hpp"
+#include "tendon/theta_is.hpp"
 
 namespace sinew::inline v1 {
 namespace {

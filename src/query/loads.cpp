@@ -1,5 +1,6 @@
 #include "query/loads.hpp"
 
+#include "io/reader.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

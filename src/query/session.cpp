@@ -1,4 +1,4 @@
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "io/actuation.hpp"
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "query/batch/row_places.hpp"
 #include "query/batch/sampler.hpp"
 #include "query/fields/fields.hpp"
@@ -16,6 +18,7 @@
 #include "query/unit_hint.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "tendon/theta_is.hpp"
 
 namespace sinew::inline v1 {
 namespace {

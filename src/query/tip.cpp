@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 
 namespace sinew::inline v1 {
 

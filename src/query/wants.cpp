@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/reader.hpp"
 #include "query/fields/fields.hpp"
 #include "query/handlers.hpp"
 

@@ -1,7 +1,8 @@
 #include "robot/arguments.hpp"
 
-#include "sinew/base/limits.hpp"
+#include "base/limits.hpp"
 #include "sinew/robot/assembly.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -4,7 +4,7 @@
 /// worked out only where something is.
 #pragma once
 #include "sinew/base/numbers.hpp"
-#include "sinew/robot/workspace.hpp"
+#include "sinew/robot/robot.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {

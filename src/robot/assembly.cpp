@@ -8,9 +8,11 @@
 #include "robot/kinematic_group.hpp"
 #include "robot/pose.hpp"
 #include "robot/rod_work.hpp"
-#include "sinew/robot/arm_legs_workspace.hpp"
-#include "sinew/robot/arm_workspace.hpp"
-#include "sinew/robot/serial_workspace.hpp"
+#include "sinew/robot/arm.hpp"
+#include "sinew/robot/arm_legs.hpp"
+#include "sinew/robot/serial.hpp"
+#include "solve/message.hpp"
+#include "tendon/input_kind.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -163,7 +165,7 @@ std::vector<InputOfLeg> inputs_of(const Robot& robot) {
   with_legs(robot, [&](const auto& r) {
     r.for_each_leg([&]<class L>(const L&, const LegPlace& place, int i) {
       if (place.is_tied) return;
-      for (const InputKind& kind : L::Drive::input_kinds) inputs.push_back({i, kind});
+      for (const InputKind& kind : L::Drive::input_kinds) inputs.push_back({i, kind.name, kind.dimension});
     });
   });
   return inputs;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/at.hpp"
+#include "math/linalg.hpp"
 #include "robot/frame_kernels.hpp"
 #include "robot/spectral_rod.hpp"
 #include "sinew/base/numbers.hpp"

@@ -5,6 +5,7 @@
 
 #include "base/at.hpp"
 #include "leg/leg_curvature.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

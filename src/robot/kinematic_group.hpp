@@ -3,8 +3,8 @@
 /// Jacobians, whether they are all of the robot or stand beside rods. Theory: docs/theory/leg.md,
 /// docs/theory/mixed_robot.md
 #pragma once
+#include "base/limits.hpp"
 #include "robot/parallel.hpp"
-#include "sinew/base/limits.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/solve/report.hpp"
 

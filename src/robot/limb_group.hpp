@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "leg/space.hpp"
+#include "math/linalg.hpp"
 #include "robot/limb_state.hpp"
 #include "robot/small_lu.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/math/linalg.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {

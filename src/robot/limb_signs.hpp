@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 
+#include "math/linalg.hpp"
 #include "robot/limb_group.hpp"
 
 namespace sinew::inline v1 {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/at.hpp"
+#include "base/limits.hpp"
 #include "robot/kinematic_group.hpp"
 #include "robot/rod_group.hpp"
 #include "solve/contraction.hpp"

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "base/limits.hpp"
 #include "robot/arm_sections.hpp"
 #include "robot/make_chains.hpp"
-#include "sinew/base/limits.hpp"
 #include "sinew/robot/arm.hpp"
 #include "sinew/robot/arm_legs.hpp"
 #include "sinew/robot/assembly.hpp"

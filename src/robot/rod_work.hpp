@@ -8,7 +8,7 @@
 
 #include "robot/limb_signs.hpp"
 #include "robot/rod_group.hpp"
-#include "sinew/robot/workspace.hpp"
+#include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v1 {
 

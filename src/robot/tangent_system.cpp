@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/at.hpp"
+#include "math/linalg.hpp"
 #include "robot/spectral_rod.hpp"
 #include "robot/tangent_kernels.hpp"
 

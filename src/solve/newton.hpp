@@ -10,8 +10,8 @@
 #include <concepts>
 #include <span>
 
-#include "sinew/base/limits.hpp"
-#include "sinew/math/linalg.hpp"
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
 #include "sinew/math/vec.hpp"
 #include "sinew/solve/report.hpp"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 #include "solve/continuation.hpp"
 #include "solve/curve.hpp"
 

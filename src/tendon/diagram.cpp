@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/polygon.hpp"
 #include "tendon/exact_region.hpp"
 
 namespace sinew::inline v1 {

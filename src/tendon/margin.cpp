@@ -1,4 +1,5 @@
 #include "tendon/margin.hpp"
+#include "math/polygon.hpp"
 
 #include <limits>
 #include <numbers>

@@ -6,10 +6,10 @@
 #include <span>
 #include <string_view>
 
-#include "sinew/base/units.hpp"
 #include "sinew/kernel/tendon_pair.h"
 #include "sinew/math/vec.hpp"
-#include "sinew/tendon/input_kind.hpp"
+#include "sinew/units.hpp"
+#include "tendon/input_kind.hpp"
 
 namespace sinew::inline v1 {
 

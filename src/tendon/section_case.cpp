@@ -1,4 +1,5 @@
 #include "tendon/section_case.hpp"
+#include "math/polygon.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 /// @file slide_drive.hpp
 /// Drive of a rail: the input is the slide itself. Theory: docs/theory/tripod_rigid.md
 #pragma once
+#include "tendon/input_kind.hpp"
 #include "tendon/pair.hpp"
 
 namespace sinew::inline v1 {

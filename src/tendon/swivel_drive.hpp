@@ -1,8 +1,9 @@
 /// @file swivel_drive.hpp
 /// Drive of a swivelled arc: a motor in its base joint and a pair of tendons. Theory: docs/theory/tendon.md
 #pragma once
-#include "sinew/tendon/theta_is.hpp"
+#include "tendon/input_kind.hpp"
 #include "tendon/pair.hpp"
+#include "tendon/theta_is.hpp"
 
 namespace sinew::inline v1 {
 

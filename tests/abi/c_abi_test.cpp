@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sinew/io/robot_file.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/velocity_lanes.hpp"
-#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/analysis/velocity.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {

@@ -248,8 +248,8 @@ TEST(LinearConsequences, OfOneSectionStayBelowThatOfTheCorner) {
   const LinearConsequences ours = linear_consequences(robot, 5000, 3);
   const double meant = degrees(24), bent = 2 * std::asin(meant / 2);
   const Section& section = robot.sections[0];
-  const Vec<double, 3> there = section.pose(Vec2<double>(meant, meant)).rigid().p,
-                       here = section.pose(Vec2<double>(bent, bent)).rigid().p;
+  const Vec<double, 3> there = section.pose(Vec2<double>(meant, meant)).p,
+                       here = section.pose(Vec2<double>(bent, bent)).p;
   const double corner = (here - there).norm();
   EXPECT_LT(ours.commanded.largest, corner);
   EXPECT_GT(ours.commanded.largest, 0.9 * corner);

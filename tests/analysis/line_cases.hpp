@@ -5,7 +5,7 @@
 #include <random>
 
 #include "reference_file.hpp"
-#include "sinew/analysis/lines.hpp"
+#include "sinew/analysis/velocity.hpp"
 
 namespace sinew::test {
 

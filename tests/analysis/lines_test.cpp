@@ -1,10 +1,11 @@
-#include "sinew/analysis/lines.hpp"
+#include "sinew/analysis/velocity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "analysis/lines.hpp"
 #include "line_cases.hpp"
 
 namespace sinew::test {

@@ -1,4 +1,4 @@
-#include "sinew/analysis/serial_shape.hpp"
+#include "sinew/analysis/shape.hpp"
 
 #include <gtest/gtest.h>
 

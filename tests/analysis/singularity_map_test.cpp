@@ -1,4 +1,4 @@
-#include "sinew/analysis/singularity_map.hpp"
+#include "sinew/analysis/singularity.hpp"
 
 #include <gtest/gtest.h>
 

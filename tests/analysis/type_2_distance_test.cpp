@@ -1,4 +1,4 @@
-#include "sinew/analysis/type_2_distance.hpp"
+#include "sinew/analysis/singularity.hpp"
 
 #include <gtest/gtest.h>
 

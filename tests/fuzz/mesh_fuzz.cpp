@@ -9,7 +9,7 @@
 
 #include "check.hpp"
 #include "driver.hpp"
-#include "sinew/plan/mesh.hpp"
+#include "sinew/plan/scene.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include "check.hpp"
 #include "driver.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "check.hpp"
 #include "driver.hpp"
 #include "paths.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace {
 

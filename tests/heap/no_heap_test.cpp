@@ -6,15 +6,15 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "base/limits.hpp"
 #include "every_robot.hpp"
+#include "math/linalg.hpp"
 #include "serial_robots.hpp"
 #include "sinew.h"
-#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/analysis/velocity.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
-#include "sinew/kinematics/resolved_rate.hpp"
-#include "sinew/kinematics/rod_rates.hpp"
-#include "sinew/kinematics/serial_inverse.hpp"
-#include "sinew/math/linalg.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 static std::atomic<long> allocations{0};
 static void* volatile kept = nullptr;  // so that the compiler cannot elide the allocation

@@ -1,4 +1,4 @@
-#include "sinew/io/arm_file.hpp"
+#include "io/arm_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "io/parse.hpp"
+#include "io/serial_file.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
 
 namespace sinew::test {
 namespace arm_file_test {

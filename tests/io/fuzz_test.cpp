@@ -4,7 +4,7 @@
 #include <random>
 
 #include "io/parse.hpp"
-#include "sinew/io/reader.hpp"
+#include "io/reader.hpp"
 
 namespace fuzz_test {
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <random>
 
+#include "io/arm_file.hpp"
 #include "io/parse.hpp"
 #include "measured_arms.hpp"
-#include "sinew/io/arm_file.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::test {

@@ -1,4 +1,4 @@
-#include "sinew/io/reader.hpp"
+#include "io/reader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include "cpu_time.hpp"
 #include "every_robot.hpp"
 #include "io/parse.hpp"
+#include "io/serial_file.hpp"
 #include "paths.hpp"
 #include "sinew/analysis/velocity.hpp"
-#include "sinew/io/serial_file.hpp"
 
 namespace sinew::test {
 namespace robot_file_test {

@@ -1,4 +1,4 @@
-#include "sinew/io/serial_file.hpp"
+#include "io/serial_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

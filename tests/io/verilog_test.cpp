@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/export.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 
 namespace sinew {
 namespace verilog_test {

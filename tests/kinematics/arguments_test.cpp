@@ -7,13 +7,12 @@
 #include "every_robot.hpp"
 #include "kinematics/chain_motion.hpp"
 #include "serial_robots.hpp"
-#include "sinew/analysis/singularity_map.hpp"
-#include "sinew/analysis/type_2_distance.hpp"
-#include "sinew/kinematics/assembly_modes.hpp"
+#include "sinew/analysis/singularity.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
 #include "sinew/kinematics/force_sensing.hpp"
-#include "sinew/kinematics/resolved_rate.hpp"
-#include "sinew/kinematics/serial_inverse.hpp"
+#include "sinew/kinematics/forward.hpp"
+#include "sinew/kinematics/serial.hpp"
 #include "sinew/sinew.hpp"
 
 namespace sinew {

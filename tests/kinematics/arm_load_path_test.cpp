@@ -1,6 +1,6 @@
 /// Loads that grow until an arm buckles or snaps, against Euler's loads and equilibria found from many
 /// starts.
-#include "sinew/kinematics/arm_load_path.hpp"
+#include "sinew/kinematics/arm.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 
 #include "arms.hpp"
+#include "math/linalg.hpp"
 #include "reference_file.hpp"
-#include "sinew/math/linalg.hpp"
 
 namespace sinew::test {
 namespace arm_published_test {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "analysis/chain_velocity.hpp"
+#include "base/limits.hpp"
 #include "chain_robots.hpp"
 #include "kinematics/chain.hpp"
 #include "sinew/io/robot_file.hpp"

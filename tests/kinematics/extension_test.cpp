@@ -4,12 +4,11 @@
 
 #include "reference_file.hpp"
 #include "serial_robots.hpp"
-#include "sinew/analysis/serial_shape.hpp"
+#include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/tendon_limits.hpp"
 #include "sinew/kernel/fixed.h"
 #include "sinew/kernel/serial.h"
-#include "sinew/kinematics/resolved_rate.hpp"
-#include "sinew/kinematics/serial_inverse.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 namespace sinew::test {
 namespace extension_test {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 
 namespace sinew::test {

@@ -2,7 +2,7 @@
 
 #include "every_robot.hpp"
 #include "paths.hpp"
-#include "sinew/kinematics/assembly_modes.hpp"
+#include "sinew/kinematics/forward.hpp"
 
 namespace sinew::test {
 namespace kinematics_test {

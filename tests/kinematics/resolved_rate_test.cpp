@@ -1,8 +1,9 @@
 /// Rates of bends and tendons that move a serial robot's tip as commanded.
-#include "sinew/kinematics/resolved_rate.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 #include <gtest/gtest.h>
 
+#include "math/linalg.hpp"
 #include "serial_robots.hpp"
 
 namespace sinew::test {

@@ -1,5 +1,5 @@
 /// Velocities of a platform on rods by rates of its inputs, and the other way round.
-#include "sinew/kinematics/rod_rates.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// Bends that bring a serial robot's tip to a target.
-#include "sinew/kinematics/serial_inverse.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "check_jacobian.hpp"
+#include "link/bent_motion.hpp"
+#include "robot/section_motion.hpp"
 #include "serial_robots.hpp"
 
 namespace sinew::test {
@@ -119,7 +121,7 @@ struct Tip {
     BentPose<S> end;
     for (std::size_t m = 0; m < robot.sections.size(); ++m) {
       const auto j = static_cast<Eigen::Index>(2 * m);
-      end = end.then(robot.sections[m].pose(Vec2<S>(bends[j], bends[j + 1])));
+      end = end.then(section_pose(robot.sections[m], Vec2<S>(bends[j], bends[j + 1])));
     }
     const SE3<S> rigid = end.rigid();
     const Mat<S, 3, 3> R = rigid.R.matrix();

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/limits.hpp"
 #include "every_robot.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::test {
 namespace track_test {

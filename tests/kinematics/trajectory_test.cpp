@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 
 namespace sinew {

@@ -1,5 +1,5 @@
 /// A joint bent in space, its derivatives, and poses that move with one bend.
-#include "sinew/link/bent_joint.hpp"
+#include "link/bent_joint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <random>
 
 #include "check_jacobian.hpp"
+#include "link/bent_motion.hpp"
 
 namespace sinew::test {
 namespace bent_joint_test {

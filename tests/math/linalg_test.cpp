@@ -1,4 +1,4 @@
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "base/limits.hpp"
 #include "sanitizers.hpp"
 #include "sinew/math/so3.hpp"
 

@@ -1,4 +1,4 @@
-#include "sinew/math/polygon.hpp"
+#include "math/polygon.hpp"
 
 #include <gtest/gtest.h>
 

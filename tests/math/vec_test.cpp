@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 #include "sinew/math/se3.hpp"
 
 namespace sinew {

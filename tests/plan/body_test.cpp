@@ -6,7 +6,7 @@
 #include <random>
 
 #include "scenes.hpp"
-#include "sinew/analysis/serial_shape.hpp"
+#include "sinew/analysis/shape.hpp"
 #include "thorough.hpp"
 
 namespace sinew::test {

@@ -1,5 +1,5 @@
 /// Meshes: what bounds a solid, what does not, and files of them.
-#include "sinew/plan/mesh.hpp"
+#include "sinew/plan/scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "plan/compressor.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/plan/scene.hpp"
 
 namespace sinew::test {

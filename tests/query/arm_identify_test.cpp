@@ -9,7 +9,7 @@
 
 #include "io/parse.hpp"
 #include "measured_arms.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {

@@ -1,5 +1,5 @@
 /// Rows of numbers against the same questions one by one.
-#include "sinew/query/batch.hpp"
+#include "sinew/batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew {

@@ -13,7 +13,7 @@
 #include <set>
 
 #include "paths.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace every_field_test {
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "sinew/io/robot_file.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew {
 namespace field_layout_test {

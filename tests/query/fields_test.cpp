@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew::test {
 namespace set_again_test {

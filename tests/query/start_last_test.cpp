@@ -1,7 +1,7 @@
 /// Walks along an input: `"start": "last"` begins where the platform was found last.
 #include <gtest/gtest.h>
 
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {

@@ -8,7 +8,7 @@
 
 #include "cpu_time.hpp"
 #include "sanitizers.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew {
 namespace stop_test {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/parse.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew::test {
 namespace torque_query_test {

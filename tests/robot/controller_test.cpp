@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kernel/controller.h"
 #include "sinew/kernel/crc32.h"
 #include "sinew/kernel/exact_table.h"

@@ -8,6 +8,7 @@
 
 #include "check_jacobian.hpp"
 #include "every_robot.hpp"
+#include "io/serial_file.hpp"
 #include "paths.hpp"
 
 namespace sinew::test {
@@ -59,7 +60,7 @@ class EveryRobotsJacobians : public testing::TestWithParam<std::string> {
   std::vector<double> bent(double most) {
     std::vector<double> inputs;
     for (const InputOfLeg& input : inputs_of(robot))
-      inputs.push_back(input.kind.dimension == Dimension::angle ? uniform(random, -3, 3) : 0);
+      inputs.push_back(input.dimension == Dimension::angle ? uniform(random, -3, 3) : 0);
     with_closing_legs(
         robot,
         [&](const auto& r) {

@@ -142,8 +142,7 @@ std::vector<Case> cases() {
   std::vector<double>& inputs = all.back().inputs;
   const auto named = inputs_of(all.back().robot);
   for (std::size_t k = 0; k < inputs.size(); ++k)
-    inputs[k] =
-        named[k].kind.name == "length" ? height * (1 + 0.01 * static_cast<double>(k)) : legs.inputs[2];
+    inputs[k] = named[k].name == "length" ? height * (1 + 0.01 * static_cast<double>(k)) : legs.inputs[2];
   return all;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "io/parse.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 int main() {
   for (std::string line; std::getline(std::cin, line);) {

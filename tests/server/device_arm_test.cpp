@@ -5,7 +5,7 @@
 #include "device_board.hpp"
 #include "simulator/drives.hpp"
 #include "simulator/simulated_arm.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "thorough.hpp"
 
 namespace sinew::server::device {

@@ -11,7 +11,7 @@
 
 #include "sanitizers.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 #include "thorough.hpp"
 #include "wire.hpp"
 // It has httplib: last.

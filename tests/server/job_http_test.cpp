@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study_folder.hpp"
 // It has httplib: last.

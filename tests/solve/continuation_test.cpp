@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "math/linalg.hpp"
 #include "solve/curve_writer.hpp"
 #include "solve/growing_load.hpp"
 

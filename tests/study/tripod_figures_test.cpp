@@ -9,11 +9,11 @@
 #include <numbers>
 #include <set>
 
+#include "math/linalg.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/math/linalg.hpp"
 #include "study/reproduce.hpp"
 #include "study/tripod/contour.hpp"
 #include "study/tripod/example.hpp"

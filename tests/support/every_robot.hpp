@@ -3,9 +3,9 @@
 #pragma once
 #include <stdexcept>
 
+#include "io/serial_file.hpp"
 #include "planar_robots.hpp"
 #include "random_leg.hpp"
-#include "sinew/io/serial_file.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "robot/parallel.hpp"
+#include "tendon/theta_is.hpp"
 #include "uniform.hpp"
 
 namespace sinew::test {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "math/polygon.hpp"
 #include "reference_file.hpp"
 #include "sinew/kernel/direction.h"
 #include "thorough.hpp"

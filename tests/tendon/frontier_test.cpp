@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 #include "sinew/tendon/diagram.hpp"
 

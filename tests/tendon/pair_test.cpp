@@ -2,6 +2,7 @@
 
 #include "link/swivel.hpp"
 #include "tendon/swivel_drive.hpp"
+#include "tendon/theta_is.hpp"
 
 namespace sinew {
 namespace pair_test {

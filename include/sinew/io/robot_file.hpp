@@ -9,9 +9,8 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/io/reader.hpp"
 #include "sinew/robot/robot.hpp"
-#include "sinew/tendon/theta_is.hpp"
+#include "sinew/robot/serial.hpp"
 
 namespace sinew::inline v1 {
 
@@ -40,6 +39,9 @@ SINEW_API std::string_view scene_template();
 ///     auto robot = sinew::load("robots/3-rfr.yaml").value();
 SINEW_API Expected<Robot> load(const std::string& path_or_name);
 
+/// The sections of a serial robot in a file, or of the one of that name (`nottingham-tpcj`).
+SINEW_API Expected<SerialRobot> load_serial(const std::string& path_or_name);
+
 /// The robot a document describes.
 SINEW_API Expected<Robot> read_robot(const Document& document);
 
@@ -52,8 +54,5 @@ SINEW_API Expected<Document> with(const Document& document, const std::string& p
 /// The same with several, `{path: value}`. What legs or sections share comes first: a setting of one of them
 /// then wins, whatever their order.
 SINEW_API Expected<Document> with(const Document& document, std::span<const Member> settings);
-
-/// `tangent` or `chord`.
-SINEW_API ThetaIs read_theta_is(const Reader& word);
 
 }  // namespace sinew::inline v1

@@ -10,7 +10,6 @@
 #include "sinew/kinematics/arm.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/robot/arm_legs.hpp"
-#include "sinew/robot/arm_legs_workspace.hpp"
 
 namespace sinew::inline v1 {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sinew/kinematics/constrained_pose.hpp"
-#include "sinew/robot/rod_result.hpp"
+#include "sinew/leg/state.hpp"
 
 namespace sinew::inline v1 {
 
@@ -176,5 +176,15 @@ SINEW_API std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers i
 SINEW_API std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const SpatialPose& wanted,
                                                            const EquilibriumOptions& options,
                                                            Workspace& work);
+
+/// Rates of the inputs [m/s] that move the platform so, into `rates`: those for which K·(rates) = J·(twist),
+/// of fewer rows where legs close beside the rods. `singular` where none do, within 1e-9.
+/// @param twist six numbers [m/s, rad/s], base axes; or three, of a robot with three inputs: ż, ωx, ωy, the
+/// others follow. No heap.
+SINEW_API Report rod_rates(const RodAnalysis& analysis, Numbers twist, std::span<double> rates);
+
+/// What the platform does at these rates of the inputs [m/s]: U·(rates) [m/s, rad/s], base axes. `singular`
+/// where the platform can move with all inputs held. No heap.
+SINEW_API Report rod_twist(const RodAnalysis& analysis, Numbers rates, std::span<double, 6> twist);
 
 }  // namespace sinew::inline v1

@@ -1,8 +1,9 @@
 /// @file forward.hpp
-/// Forward kinematics: the platform pose that the inputs command, by Newton from a start.
-/// Theory: docs/theory/kinematics.md
+/// Forward kinematics: the platform pose that the inputs command, by Newton from a start; and every pose that
+/// they allow. Theory: docs/theory/kinematics.md, docs/theory/assembly_modes.md
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "sinew/robot/assembly.hpp"
 
@@ -36,5 +37,24 @@ struct Forward {
 /// No heap, no throw, bounded work.
 /// @implements TDPCR (42)
 SINEW_API Forward forward(const Robot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work);
+
+/// Poses of one robot at the same inputs, each with its residual.
+struct AssemblyModes {
+  Report report;  ///< unreachable where there is none; singular where there is a continuum
+  std::vector<AnyPose> poses;
+  std::vector<double> residual;  ///< largest closure error of each pose [m]
+  std::vector<bool> is_double;   ///< of planar and of hinged legs: two modes merge in this pose, see there
+  bool is_complete = true;       ///< otherwise their number is a lower bound
+  /// Of the links [1/m], [rad], [m], the same in every mode; view into the workspace
+  std::span<const double> coordinates;
+};
+
+/// All solutions of TDPCR (42); `forward` finds the one a start leads to. Of a robot on rods `unsupported`:
+/// see `equilibria`.
+/// @param inputs in leg order: lengths of tendons, slides [m], before them angles of base motors [rad]
+SINEW_API AssemblyModes assembly_modes(const Robot& robot, Numbers inputs, Workspace& work);
+
+/// Index of the pose nearest to `start`, turns counted by what they move a point at the platform's radius.
+SINEW_API std::size_t nearest_pose(const Robot& robot, std::span<const AnyPose> poses, const AnyPose& start);
 
 }  // namespace sinew::inline v1

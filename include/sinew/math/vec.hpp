@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 #include <concepts>
+#include <vector>
 
 #include "sinew/base/export.hpp"
 
@@ -65,6 +66,9 @@ using Vec2 = Mat<S, 2>;
 template <class S>
 using Vec3 = Mat<S, 3>;
 
+/// Somebody's row-major numbers as a matrix: `MatrixView(data, rows, columns)`.
+using MatrixView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
 /// a·b without conjugation: analytic in both, unlike Eigen's dot on complex numbers.
 template <class A, class B>
 typename A::Scalar dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
@@ -101,5 +105,18 @@ Vec2<typename A::Scalar> perp(const Eigen::MatrixBase<A>& v_) {
   const Vec2<typename A::Scalar> v = v_;
   return {-v[1], v[0]};
 }
+
+/// A convex set by its vertices, counter-clockwise, none twice: none of them is the empty set, one a point,
+/// two a segment.
+using Polygon = std::vector<Vec2<double>>;
+
+/// The points x with normal·x ≥ offset; the normal is a unit vector.
+struct HalfPlane {
+  Vec2<double> normal;  ///< unit vector, inwards
+  double offset;        ///< distance of the line from the origin, < 0: the origin is inside
+
+  /// How deep inside x lies, < 0: outside.
+  double depth(const Vec2<double>& x) const { return dot(normal, x) - offset; }
+};
 
 }  // namespace sinew::inline v1

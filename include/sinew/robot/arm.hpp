@@ -1,6 +1,6 @@
 /// @file arm.hpp
-/// An arm: elastic sections one after the other, pulled by tendons, that bear loads. Theory:
-/// docs/theory/strain_rod.md
+/// An arm: elastic sections one after the other, pulled by tendons, that bear loads; and memory for questions
+/// to it. Theory: docs/theory/strain_rod.md
 #pragma once
 #include <array>
 #include <limits>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
+#include "sinew/base/stop.hpp"
 #include "sinew/math/vec.hpp"
 #include "sinew/robot/serial.hpp"
 
@@ -147,6 +148,25 @@ enum class ArmModel {
   subsegment_cc,   ///< constant from disc to disc
   cc,              ///< constant along a section
   prb,             ///< rigid links and sprung joints
+};
+
+/// Memory for questions to one arm; one per thread.
+class ArmWorkspace {
+ public:
+  /// For this arm and its copies.
+  SINEW_API explicit ArmWorkspace(const Arm& arm);
+  SINEW_API ~ArmWorkspace();
+  SINEW_API ArmWorkspace(ArmWorkspace&&) noexcept;
+  SINEW_API ArmWorkspace& operator=(ArmWorkspace&&) noexcept;
+
+  StopToken stop;  ///< searches end with `stopped` once it is requested
+
+  struct Impl;
+  /// What solvers keep in it.
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sinew::inline v1

@@ -1,11 +1,14 @@
 /// @file arm_legs.hpp
-/// A platform on arms: legs of elastic sections, each pulled by tendons. Theory: docs/theory/arm_legs.md
+/// A platform on arms: legs of elastic sections, each pulled by tendons; and memory for questions to it.
+/// Theory: docs/theory/arm_legs.md
 #pragma once
 #include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "sinew/base/export.hpp"
+#include "sinew/base/stop.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/robot/arm.hpp"
 
@@ -38,6 +41,26 @@ struct ArmLegs {
     for (const ArmLeg& leg : legs) count += leg.arm.tendons.size();
     return count;
   }
+};
+
+/// Memory for questions to one platform on arms; the equilibrium that the last one found stays in it. One per
+/// thread.
+class ArmLegsWorkspace {
+ public:
+  /// For this robot and its copies.
+  SINEW_API explicit ArmLegsWorkspace(const ArmLegs& robot);
+  SINEW_API ~ArmLegsWorkspace();
+  SINEW_API ArmLegsWorkspace(ArmLegsWorkspace&&) noexcept;
+  SINEW_API ArmLegsWorkspace& operator=(ArmLegsWorkspace&&) noexcept;
+
+  StopToken stop;  ///< searches end with `stopped` once it is requested
+
+  struct Impl;
+  /// What solvers keep in it.
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sinew::inline v1

@@ -3,11 +3,13 @@
 /// differential kinematics, singularities and sensitivities all read it. Theory: docs/theory/leg.md;
 /// of rods docs/theory/rod_robot.md
 #pragma once
+#include <string_view>
+
 #include "sinew/base/numbers.hpp"
-#include "sinew/math/linalg.hpp"
-#include "sinew/robot/workspace.hpp"
+#include "sinew/math/vec.hpp"
+#include "sinew/robot/robot.hpp"
 #include "sinew/solve/report.hpp"
-#include "sinew/tendon/input_kind.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 
@@ -61,8 +63,9 @@ SINEW_API int plane_count(const Robot& robot);  ///< rows of planes, the last of
 
 /// An input of the robot, as messages and tables name it: `legs[0].tendon_1`.
 struct InputOfLeg {
-  int leg;
-  InputKind kind;
+  int leg;                ///< in file order
+  std::string_view name;  ///< of what the motor commands: `tendon_1`
+  Dimension dimension;    ///< of that, in SI
 };
 /// The inputs in their order; where legs share one, that of the first.
 SINEW_API std::vector<InputOfLeg> inputs_of(const Robot& robot);

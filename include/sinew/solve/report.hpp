@@ -1,11 +1,13 @@
 /// @file report.hpp
 /// What a solver says of its answer. A solver that does not converge is an answer, never an exception.
 #pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/fixed_text.hpp"
 
 namespace sinew::inline v1 {
 
@@ -28,6 +30,47 @@ enum class Status {
 
 /// Its name: `iteration_limit`.
 SINEW_API std::string_view to_string(Status status) noexcept;
+
+/// At most so many bytes of UTF-8 text, without the heap: a solver in a hot loop can say why it failed. What
+/// does not fit is cut off.
+template <std::size_t Capacity>
+class FixedText {
+ public:
+  using value_type = char;
+
+  FixedText() = default;
+  /// As much of the text as fits.
+  FixedText(std::string_view text) { append(text); }  // NOLINT(google-explicit-constructor): a text is a text
+
+  /// Only what there is, mostly nothing, is copied: every answer of a solver carries a text.
+  FixedText(const FixedText& other) : size_(other.size_) { copy(other); }
+  FixedText& operator=(const FixedText& other) {
+    size_ = other.size_;
+    copy(other);
+    return *this;
+  }
+
+  /// Appends what fits; the rest is cut off.
+  void append(std::string_view text) {
+    for (const char c : text) push_back(c);
+  }
+  /// One more byte, if it fits; formatters can so write through a back inserter.
+  void push_back(char c) {
+    if (size_ < Capacity) text_[size_++] = c;
+  }
+
+  bool empty() const { return size_ == 0; }  ///< without text
+  /// The text; not ended by 0. It holds as long as this.
+  std::string_view view() const { return {text_.data(), size_}; }
+
+ private:
+  void copy(const FixedText& other) {
+    if (this != &other) std::copy_n(other.text_.begin(), size_, text_.begin());
+  }
+
+  std::size_t size_ = 0;
+  std::array<char, Capacity> text_;  // not initialised: only the first size_ characters are ever read
+};
 
 /// Status with its evidence. `residual` is that of the best iterate, which is always handed back.
 struct Report {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "sinew/kernel/section.h"
-#include "sinew/math/polygon.hpp"
+#include "sinew/math/vec.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sinew/io/serial_file.hpp"
+#include "io/serial_file.hpp"
 
 namespace sinew::server::device {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "arm.hpp"
-#include "sinew/query/session.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew::server::device {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/arm_file.hpp"
 #include "io/measured/measurement.hpp"
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
-#include "sinew/io/arm_file.hpp"
 #include "sinew/io/measured_arm.hpp"
 
 namespace sinew::inline v1 {

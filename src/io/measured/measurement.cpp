@@ -1,4 +1,5 @@
 #include "io/measured/measurement.hpp"
+#include "io/reader.hpp"
 
 #include <fmt/format.h>
 

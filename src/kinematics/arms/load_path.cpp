@@ -4,7 +4,7 @@
 
 #include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
-#include "sinew/kinematics/arm_load_path.hpp"
+#include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "base/at.hpp"
-#include "sinew/math/linalg.hpp"
+#include "base/limits.hpp"
+#include "math/linalg.hpp"
 #include "strain/norm.hpp"
 
 namespace sinew::inline v1 {

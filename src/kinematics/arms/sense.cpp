@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kinematics/arms/arm_work.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::inline v1 {
 namespace {

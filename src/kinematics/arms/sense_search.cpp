@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::inline v1 {
 namespace {

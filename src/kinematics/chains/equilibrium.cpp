@@ -4,8 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/limits.hpp"
 #include "kinematics/chains/path.hpp"
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
+#include "solve/message.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

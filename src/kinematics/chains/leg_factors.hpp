@@ -17,6 +17,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/limits.hpp"
 #include "kinematics/chains/leg_system.hpp"
 #include "math/symmetric_factors.hpp"
 

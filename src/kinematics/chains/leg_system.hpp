@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/limits.hpp"
 #include "kinematics/chain.hpp"
 #include "leg/chord.hpp"
 #include "leg/closure_curvature.hpp"
 #include "leg/strut.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/limits.hpp"
 #include "kinematics/chain_motion.hpp"
 #include "kinematics/chains/leg_system.hpp"
 

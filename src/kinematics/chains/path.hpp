@@ -5,8 +5,11 @@
 #include <memory>
 #include <numbers>
 
+#include "base/limits.hpp"
 #include "kinematics/chains/chain_group.hpp"
+#include "math/linalg.hpp"
 #include "solve/continuation.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 

@@ -2,8 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/limits.hpp"
 #include "kinematics/chains/leg_system.hpp"
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::inline v1 {
 

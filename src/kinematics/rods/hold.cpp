@@ -10,6 +10,7 @@
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
+#include "solve/message.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

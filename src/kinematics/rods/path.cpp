@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/at.hpp"
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::inline v1 {
 namespace {

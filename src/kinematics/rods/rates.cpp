@@ -1,13 +1,13 @@
-#include "sinew/kinematics/rod_rates.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "base/at.hpp"
+#include "base/limits.hpp"
 #include "kinematics/rods/verdict.hpp"
-#include "sinew/base/limits.hpp"
-#include "sinew/math/linalg.hpp"
+#include "math/linalg.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/base/limits.hpp"
+#include "base/limits.hpp"
 
 namespace sinew::inline v1 {
 

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/limits.hpp"
 #include "kinematics/serial/tip_problem.hpp"
+#include "solve/message.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

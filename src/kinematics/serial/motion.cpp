@@ -4,6 +4,8 @@
 
 #include "sinew/kinematics/serial.hpp"
 
+#include "link/bent_motion.hpp"
+#include "robot/section_motion.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {
@@ -17,7 +19,7 @@ void section_ends(std::span<const Bend> bends, SerialWorkspace& work) {
   if (!work.fits(bends)) return void(std::ranges::fill(work.ends, nowhere));
   BentPose<double> end;
   for (std::size_t m = 0; m < bends.size(); ++m) {
-    end = end.then(work.sections[m].pose(bends[m]));
+    end = end.then(section_pose(work.sections[m], bends[m]));
     work.ends[m] = end.rigid();
   }
 }
@@ -33,7 +35,7 @@ void tip_motion(std::span<const Bend> bends, SerialWorkspace& work) {
   double* const J = work.J.data();
   BentPose<double> end;
   for (std::size_t m = 0; m < bends.size(); ++m) {
-    const BentMotion<double> section = work.sections[m].motion(bends[m]);
+    const BentMotion<double> section = section_motion(work.sections[m], bends[m]);
     const detail::Turn<double> base(end.w, end.v);
     double arm[3];
     base.apply(section.pose.p, arm);

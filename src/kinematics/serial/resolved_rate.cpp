@@ -1,10 +1,12 @@
 /// Resolved-rate motion of serial robots.
-#include "sinew/kinematics/resolved_rate.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/limits.hpp"
 #include "kinematics/serial/tip_rows.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -5,6 +5,7 @@
 #include "sinew/base/numbers.hpp"
 #include "sinew/kernel/tendon_state.h"
 #include "sinew/kinematics/serial.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "kinematics/serial/arc_newton.hpp"
 #include "kinematics/serial/arc_pairs.hpp"
+#include "solve/message.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

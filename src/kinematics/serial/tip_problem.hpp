@@ -4,8 +4,9 @@
 #pragma once
 #include <array>
 
+#include "base/limits.hpp"
 #include "kinematics/serial/tip_rows.hpp"
-#include "sinew/kinematics/serial_inverse.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 namespace sinew::inline v1 {
 

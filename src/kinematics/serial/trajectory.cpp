@@ -9,6 +9,7 @@
 
 #include "math/shape_preserving.hpp"
 #include "sinew/kinematics/serial.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -1,4 +1,5 @@
 #include "query/answer/value.hpp"
+#include "solve/message.hpp"
 
 #include <fmt/format.h>
 

@@ -14,9 +14,9 @@
 #include <variant>
 #include <vector>
 
+#include "math/linalg.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v1 {
 

@@ -7,6 +7,7 @@
 
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/sampler.hpp"
 #include "sinew/base/export.hpp"

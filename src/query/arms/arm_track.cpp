@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "sinew/kinematics/arm_path.hpp"
 #include "solve/stopped.hpp"

@@ -7,10 +7,11 @@
 
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/sampler.hpp"
 #include "query/tip.hpp"
-#include "sinew/kinematics/arm_load_path.hpp"
+#include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {
 

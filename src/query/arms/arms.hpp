@@ -1,6 +1,7 @@
 /// @file arms.hpp
 /// What the handlers of questions to arms share.
 #pragma once
+#include "io/reader.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
 #include "sinew/kinematics/arm.hpp"

@@ -1,4 +1,4 @@
-#include "sinew/query/batch.hpp"
+#include "sinew/batch.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "query/batch/sampler.hpp"
-#include "sinew/query/batch.hpp"
+#include "sinew/batch.hpp"
 
 namespace sinew::inline v1 {
 

@@ -7,7 +7,7 @@
 
 #include "query/batch/row_places.hpp"
 #include "query/kinematic/kinematics.hpp"
-#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/analysis/velocity.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {

@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "query/batch/answer_path.hpp"
 #include "query/batch/batch_state.hpp"
 #include "query/batch/field_layout.hpp"
 #include "query/batch/row_places.hpp"
 #include "query/tree_session.hpp"
-#include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/serial.hpp"
@@ -52,7 +52,7 @@ std::string unit_of_number(const Robot& robot, std::string_view place) {
   if (field == "inputs" && !robot.serial()) {
     const auto inputs = inputs_of(robot);
     const auto one = static_cast<std::size_t>(index);
-    return one < inputs.size() ? std::string(unit(inputs[one].kind.dimension)) : std::string();
+    return one < inputs.size() ? std::string(unit(inputs[one].dimension)) : std::string();
   }
   if (field == "wrench" || field == "following" || field == "until.wrench" || field == "to.wrench")
     return is_linear ? "N" : "N m";

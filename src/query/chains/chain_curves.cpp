@@ -1,6 +1,7 @@
 /// `track` of robots on chains with `to`: curves of equilibria along loads and what tendons hold.
 #include "query/chains/chain_curves.hpp"
 
+#include "io/reader.hpp"
 #include "kinematics/chain_curve.hpp"
 #include "query/chains/chain_answer.hpp"
 #include "query/curves.hpp"

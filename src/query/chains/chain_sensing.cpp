@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/reader.hpp"
 #include "kinematics/chain_sensing.hpp"
 
 namespace sinew::inline v1::chains {

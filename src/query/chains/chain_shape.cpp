@@ -1,5 +1,6 @@
 /// Handler of shape on pseudo-rigid chains.
 #include "analysis/chain_shape.hpp"
+#include "io/reader.hpp"
 #include "query/chains/chains.hpp"
 
 namespace sinew::inline v1 {

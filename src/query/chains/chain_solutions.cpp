@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kinematics/chain_equilibria.hpp"
-#include "sinew/kinematics/assembly_modes.hpp"
+#include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v1::chains {
 namespace {

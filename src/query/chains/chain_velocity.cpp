@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "analysis/chain_shape.hpp"
+#include "io/reader.hpp"
 #include "kinematics/chain_motion.hpp"
 #include "query/chains/chain_curves.hpp"
 #include "query/chains/chain_velocity.hpp"

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "io/reader.hpp"
 #include "query/chains/chain_sensing.hpp"
 #include "query/chains/chain_solutions.hpp"
 

@@ -1,6 +1,7 @@
 /// @file chains.hpp
 /// What handlers of questions to pseudo-rigid chains share.
 #pragma once
+#include "io/reader.hpp"
 #include "kinematics/chain_analysis.hpp"
 #include "kinematics/chains/arcs.hpp"
 #include "query/handlers.hpp"

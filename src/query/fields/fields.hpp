@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/units.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/measured/measurement.hpp"
+#include "io/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "query/identify/identification.hpp"
 #include "sinew/io/measured_arm.hpp"

@@ -7,7 +7,6 @@
 #include "query/kinematic/kinematics.hpp"
 #include "query/loads.hpp"
 #include "sinew/analysis/shape.hpp"
-#include "sinew/kinematics/assembly_modes.hpp"
 #include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v1 {

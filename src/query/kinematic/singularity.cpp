@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "query/context.hpp"
-#include "sinew/analysis/type_2_distance.hpp"
+#include "sinew/analysis/singularity.hpp"
 
 namespace sinew::inline v1 {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "query/context.hpp"
 #include "query/kinematic/kinematics.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "query/curves.hpp"
 #include "query/rods/rods.hpp"
 #include "solve/stopped.hpp"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/reader.hpp"
 #include "query/rods/rods.hpp"
 #include "sinew/kinematics/force_sensing.hpp"
 

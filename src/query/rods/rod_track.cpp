@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/reader.hpp"
 #include "query/rods/rods.hpp"
 #include "sinew/kinematics/track.hpp"
 #include "solve/stopped.hpp"

@@ -6,11 +6,12 @@
 #include <cmath>
 
 #include "io/read_pose.hpp"
+#include "io/reader.hpp"
 #include "query/batch/sampler.hpp"
 #include "robot/parallel.hpp"
 #include "robot/rod_work.hpp"
 #include "sinew/analysis/shape.hpp"
-#include "sinew/kinematics/rod_rates.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
+#include "math/linalg.hpp"
 #include "query/batch/sampler.hpp"
-#include "sinew/analysis/serial_shape.hpp"
-#include "sinew/kinematics/resolved_rate.hpp"
+#include "sinew/analysis/shape.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 namespace sinew::inline v1 {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/reader.hpp"
 #include "query/serial/serial.hpp"
 #include "tendon/state.hpp"
 

@@ -6,7 +6,8 @@
 #include "kinematics/three_arcs.hpp"
 #include "query/serial/serial.hpp"
 #include "query/tip.hpp"
-#include "sinew/kinematics/serial_inverse.hpp"
+#include "sinew/kinematics/serial.hpp"
+#include "solve/message.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 #include <string_view>
 
-#include "sinew/io/reader.hpp"
+#include "io/reader.hpp"
 
 namespace sinew::inline v1 {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 
 namespace sinew::inline v1 {
 

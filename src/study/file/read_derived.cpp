@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "study/file/column_name.hpp"
 #include "study/file/column_values.hpp"
 #include "study/sweep/terms.hpp"

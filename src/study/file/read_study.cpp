@@ -9,9 +9,9 @@
 
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
+#include "io/reader.hpp"
 #include "query/batch/placeholders.hpp"
-#include "sinew/analysis/singularity_map.hpp"
-#include "sinew/io/reader.hpp"
+#include "sinew/analysis/singularity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/study/study.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "analysis/chord_error.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"

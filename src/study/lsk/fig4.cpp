@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/io/serial_file.hpp"
-#include "sinew/math/polygon.hpp"
+#include "math/polygon.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"

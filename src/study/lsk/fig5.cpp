@@ -7,7 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "sinew/io/serial_file.hpp"
+#include "math/polygon.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"

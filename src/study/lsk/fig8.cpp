@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/limits.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/lsk/cycles/measure.hpp"

@@ -9,7 +9,7 @@
 
 #include "analysis/chord_error.hpp"
 #include "sinew/analysis/tendon_limits.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"

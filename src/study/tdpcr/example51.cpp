@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "math/linalg.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v1::example51 {
 

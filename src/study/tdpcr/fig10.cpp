@@ -9,10 +9,11 @@
 #include <limits>
 #include <numbers>
 
+#include "math/linalg.hpp"
+#include "math/polygon.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/math/linalg.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/tdpcr/example51.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/linalg.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/math/linalg.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/tdpcr/example51_chains.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
 #include "query/batch/sampler.hpp"
-#include "sinew/base/assert.hpp"
 #include "sinew/study/result.hpp"
 
 namespace sinew::inline v1::tripod {

@@ -9,7 +9,7 @@
 
 #include "cpu_time.hpp"
 #include "simulator/arm_statics.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 
 namespace sinew::firmware {
 namespace arm_statics_test {

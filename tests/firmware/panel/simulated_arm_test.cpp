@@ -7,7 +7,7 @@
 #include "paths.hpp"
 #include "simulator/faults.hpp"
 #include "simulator/simulated_arm.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 
 namespace sinew::firmware {
 namespace simulated_arm_test {

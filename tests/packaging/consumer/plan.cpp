@@ -1,6 +1,6 @@
 // A way in, and its check, from an installed sinew::plan.
-#include <sinew/io/serial_file.hpp>
 #include <sinew/plan/insertion.hpp>
+#include <sinew/robot.hpp>
 
 int main() {
   sinew::InsertionScene scene;

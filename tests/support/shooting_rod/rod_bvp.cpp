@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "math/inverse_sinc.hpp"
+#include "math/linalg.hpp"
 #include "shooting_rod/tip_gaps.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/math/linalg.hpp"
 #include "solve/continuation.hpp"
+#include "solve/message.hpp"
 #include "solve/newton.hpp"
 
 namespace sinew::inline v1 {

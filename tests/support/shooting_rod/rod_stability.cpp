@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/linalg.hpp"
 #include "shooting_rod/rod_bvp.hpp"
 #include "shooting_rod/rod_tangents.hpp"
-#include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v1 {
 namespace {

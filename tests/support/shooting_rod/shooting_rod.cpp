@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
 #include "shooting_rod/rod_tangents.hpp"
-#include "sinew/base/assert.hpp"
 
 namespace sinew::inline v1 {
 namespace {

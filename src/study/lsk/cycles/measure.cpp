@@ -12,7 +12,7 @@
 
 #include "io/export.hpp"
 #include "io/process.hpp"
-#include "sinew/io/serial_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study/builtin.hpp"
 

@@ -23,8 +23,8 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/base/export.hpp"
-#include "sinew/base/units.hpp"
 #include "sinew/io/node.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 

@@ -8,13 +8,10 @@
 #include <cstddef>
 #include <span>
 
-#include "sinew/base/limits.hpp"
+#include "base/limits.hpp"
 #include "sinew/math/vec.hpp"
 
 namespace sinew::inline v1 {
-
-/// Somebody's row-major numbers as a matrix: `MatrixView(data, rows, columns)`.
-using MatrixView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 /// A = U·diag(σ)·Vᵀ, σ descending. U and V are square, columns are vectors: the last columns of V from `rank`
 /// on span the null space of A, those of U that of Aᵀ.

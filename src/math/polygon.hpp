@@ -14,19 +14,6 @@
 
 namespace sinew::inline v1 {
 
-/// A convex set by its vertices, counter-clockwise, none twice: none of them is the empty set, one a point,
-/// two a segment.
-using Polygon = std::vector<Vec2<double>>;
-
-/// The points x with normal·x ≥ offset; the normal is a unit vector.
-struct HalfPlane {
-  Vec2<double> normal;  ///< unit vector, inwards
-  double offset;        ///< distance of the line from the origin, < 0: the origin is inside
-
-  /// How deep inside x lies, < 0: outside.
-  double depth(const Vec2<double>& x) const { return dot(normal, x) - offset; }
-};
-
 /// What the half-planes have in common; absent where it is unbounded. A set thinner than rounding, on either
 /// side of nothing, is a segment or a point. Takes time ~ count³.
 SINEW_API std::optional<Polygon> intersection(std::span<const HalfPlane> half_planes);

@@ -1,4 +1,4 @@
-#include "sinew/base/fixed_text.hpp"
+#include "solve/message.hpp"
 
 #include <fmt/format.h>
 

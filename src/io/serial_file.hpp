@@ -13,10 +13,6 @@ namespace sinew::inline v1 {
 /// Whether a document says `kind: serial`.
 SINEW_API bool is_serial(const Document& document);
 
-/// The serial robot in a file, or the one of that name (`nottingham-tpcj`); or every error of the file at
-/// once, each with its line and column.
-SINEW_API Expected<SerialRobot> load_serial(const std::string& path_or_name);
-
 /// The serial robot a document describes.
 SINEW_API Expected<SerialRobot> read_serial_robot(const Document& document);
 

@@ -1,4 +1,6 @@
-#include "sinew/robot/serial_workspace.hpp"
+#include "sinew/robot/serial.hpp"
+
+#include "robot/section_motion.hpp"
 
 namespace sinew::inline v1 {
 
@@ -21,6 +23,15 @@ SerialWorkspace::SerialWorkspace(const SerialRobot& any)
     tendons.push_back(section.tendons);
     for (int i = 0; i < section.tendons; ++i) directions.push_back(section.direction(i));
   }
+}
+
+SE3<double> Section::pose(const Bend& bend) const { return section_pose(*this, bend).rigid(); }
+
+Vec3<double> Section::extension_motion(const Bend& bend) const {
+  Section chords = *this;  // the end is linear in the length of the joints
+  chords.joint = 1.0 / segments;
+  chords.disc_height = 0;
+  return chords.pose(bend).p;
 }
 
 }  // namespace sinew::inline v1

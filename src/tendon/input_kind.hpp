@@ -3,7 +3,7 @@
 #pragma once
 #include <string_view>
 
-#include "sinew/base/units.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 

@@ -13,7 +13,7 @@
 /// Numbers one by one, and all inlined: as matrices of Eigen's the same takes ten times as long, because they
 /// go through memory in parts of other sizes than they are read back in.
 #pragma once
-#include "sinew/link/bent_motion.hpp"
+#include "link/bent_motion.hpp"
 
 namespace sinew::inline v1 {
 
