@@ -66,7 +66,7 @@ struct OpenRow {
   Rung rung, start;          ///< start: what the row before left, for who begins again
   std::vector<double> start_y;
   ResolutionLadder ladder;
-  ResolutionLadder::Step step = {ResolutionLadder::Step::answer};
+  ResolutionLadder::Step step = {ResolutionLadder::Step::Kind::answer};
   bool leans = true;  ///< where a level has a lean rod
   double radius = 0;  ///< of Newton's steps in this solve
   double residual = 0, standing_residual = 0;
@@ -185,14 +185,14 @@ void ArmLanes::Impl::begin(OpenRow& open) {
 
 void ArmLanes::Impl::take(OpenRow& open, const ResolutionLadder::Step& step) {
   open.step = step;
-  if (step.kind == ResolutionLadder::Step::answer) {
+  if (step.kind == ResolutionLadder::Step::Kind::answer) {
     finish(open);
     return;
   }
   const strain::RodModel& model = level(step.level).rod->model;
   Found& found = open.found[at(step.level)];
   found.y.resize(at(model.size));
-  if (step.kind == ResolutionLadder::Step::solve && step.level != step.from) {
+  if (step.kind == ResolutionLadder::Step::Kind::solve && step.level != step.from) {
     const strain::RodModel& from = level(step.from).rod->model;
     if (!is_within(from, model) && !is_within(model, from)) {
       solve_alone(open);
@@ -416,7 +416,7 @@ void ArmLanes::Impl::newton(int which, bool leans) {
     if (open.ladder.stands()) open.standing_residual = open.residual;
     open.leans = true;
     take(open, next);
-    if (open.step.kind == ResolutionLadder::Step::compare && !open.is_done) {
+    if (open.step.kind == ResolutionLadder::Step::Kind::compare && !open.is_done) {
       wants[at(l)] = any = true;
       finer = next.level;
     }

@@ -315,8 +315,8 @@ template <class Solve>
 strain::Relaxed climb(ResolutionLadder& ladder, ResolutionLadder::Step step, AskedRods& rods, Solve solve) {
   strain::Relaxed found;
   int iterations = 0;
-  while (step.kind != ResolutionLadder::Step::answer) {
-    if (step.kind == ResolutionLadder::Step::compare) {
+  while (step.kind != ResolutionLadder::Step::Kind::answer) {
+    if (step.kind == ResolutionLadder::Step::Kind::compare) {
       const strain::Approach near =
           rods.at(step.level).approach(rods.known(step.from), 1e-3 * ladder.wanted());
       iterations += near.iterations;

@@ -144,7 +144,7 @@ ResolutionLadder::Step ResolutionLadder::go_on() {
     --rung_->level;
     return aim(Aim::answer, rung_->level, rung_->level + 1);
   }
-  return {Step::compare, next_, rung_->level};
+  return {Step::Kind::compare, next_, rung_->level};
 }
 
 ResolutionLadder::Step ResolutionLadder::after_comparison(const strain::Approach& near) {

@@ -33,7 +33,7 @@ struct Rung {
 class ResolutionLadder {
  public:
   struct Step {
-    enum Kind {
+    enum class Kind {
       answer,  ///< what was found at the level of the rung is the answer
       solve,   ///< an equilibrium at `level`, from the coordinates that `from` has
       compare  ///< the equilibrium at `from` with what `level` makes of it: LoadedRod::approach
@@ -74,10 +74,10 @@ class ResolutionLadder {
   Step go_on();
   Step beyond();
   bool leaner_does(const Solved& solved);
-  Step answer() const { return {Step::answer, rung_->level, rung_->level}; }
+  Step answer() const { return {Step::Kind::answer, rung_->level, rung_->level}; }
   Step aim(Aim what, int level, int from) {
     aim_ = what;
-    return {Step::solve, level, from};
+    return {Step::Kind::solve, level, from};
   }
 
   ArmOptions options_;
