@@ -130,7 +130,7 @@ void Search::pose(const Place& path, const Node& node) {
 
 void Search::inputs(const Place& path, const Node& list) {
   for (std::size_t k = 0; k < std::min(list.items.size(), inputs_.size()); ++k) {
-    if (inputs_[k].kind.dimension == Dimension::angle)
+    if (inputs_[k].dimension == Dimension::angle)
       angle(Place(path, k), list.items[k]);
     else
       length(Place(path, k), list.items[k], far_length);
@@ -243,7 +243,7 @@ void Search::numbers(const Field& field, const Place& path, const Node& node) {
 /// Velocities of the platform: of as much as its size a second.
 void Search::twist(const Place& path, const Node& list) {
   const bool is_on_rods =
-      std::ranges::any_of(inputs_, [](const InputOfLeg& input) { return input.kind.name == "length"; });
+      std::ranges::any_of(inputs_, [](const InputOfLeg& input) { return input.name == "length"; });
   const std::size_t shifts = list.items.size() != 3 ? 3 : is_on_rods ? 1 : 2;  // of three inputs vz, wx, wy
   for (std::size_t k = 0; k < std::min(shifts, list.items.size()); ++k)
     length(Place(path, k), list.items[k], far_length);
