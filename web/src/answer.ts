@@ -1,4 +1,5 @@
 // The right panel's numbers: pose, margins, forces or tensions. Words of an answer, put in order; nothing is computed.
+import {sectionName} from './arm';
 import {type Bar, filled, type Section, sectionOf, signed} from './bars';
 import type {Json} from './client';
 import {type Described, subscript} from './described';
@@ -21,7 +22,7 @@ export function coordinates(pose: Json): [string, number, Unit][] {
 }
 
 function poseSection(answer: Json, ghost: Ghost | null, described: Described, system: System): Section {
-  const pose = answer.pose ?? answer.tip, other = ghost?.answer.pose ?? ghost?.answer.tip, title = described.isSerial || described.isArm ? 'Pose of the tip' : 'Pose of the platform';
+  const pose = answer.pose ?? answer.tip, other = ghost?.answer.pose ?? ghost?.answer.tip, title = described.isSerial || (described.isArm && !described.hasArmLegs) ? 'Pose of the tip' : 'Pose of the platform';
   if (!pose) return {title, rows: [], bars: []};
   const others = other ? coordinates(other) : [];
   const isUpright = Math.abs(pose.tilt ?? 1) < 1e-7;  // it leans nowhere, so in no direction
@@ -104,12 +105,12 @@ function barSection(title: string, unit: Unit, system: System, named: [string, n
 }
 
 /** What an arm's tendons do, how it bends and what its tip yields. */
-function ofArm({tensions, changes, compliance}: Json, system: System): Section[] {
-  const named = (lists: number[][]) => lists.flatMap((of, m) => of.map((value, j): [string, number] => [`S${m + 1} ${j + 1}`, value]));
+function ofArm({tensions, changes, compliance}: Json, described: Described, system: System): Section[] {
+  const named = (lists: number[][]) => lists.flatMap((of, m) => of.map((value, j): [string, number] => [`${sectionName(described.answer, m)} ${j + 1}`, value]));
   const pulls = barSection('Tensions', 'N', system, named(tensions), true);
   pulls.bars.forEach((bar, i) => { if (isSlack(named(tensions)[i]![1], {most: largest(tensions.flat())})) bar.text = 'slack'; });
   return [pulls, barSection('Tendon changes', 'm', system, named(changes)),
-          ...(compliance ? [barSection('Compliance of the tip', 'm/N', system, ['x', 'y', 'z'].map((name, k) => [name, compliance[k][k]]), true)] : [])];
+          ...(compliance ? [barSection(`Compliance of the ${described.hasArmLegs ? 'platform' : 'tip'}`, 'm/N', system, ['x', 'y', 'z'].map((name, k) => [name, compliance[k][k]]), true)] : [])];
 }
 
 /** What pulls: forces of rods, tensions of chains, changes of a serial robot's tendons; of arcs how they bend. */
@@ -140,9 +141,9 @@ export class AnswerPanel {
     const sections = [poseSection(answer, ghost, described, system)];
     const margins: Section = {title: 'Margins', rows: marginRows(answer, system), bars: marginBars(answer, described, state)};
     if (margins.rows.length + margins.bars.length > 0) sections.push(margins);
-    const pulls = described.isArm ? null : effort(answer, system), curve = described.isArm && profile(answer, described, system), way = described.isArm && loop(answer, described, state, input, system);
+    const pulls = described.isArm ? null : effort(answer, system), curve = described.isArm && !described.hasArmLegs && profile(answer, described, system), way = described.isArm && !described.hasArmLegs && loop(answer, described, state, input, system);
     if (pulls) sections.push(pulls);
-    this.box.replaceChildren(...sections.map(sectionOf), ...(way ? [way] : []), ...(curve ? [curve] : []), ...(described.isArm && answer.tensions ? ofArm(answer, system).map(sectionOf) : []));
+    this.box.replaceChildren(...sections.map(sectionOf), ...(way ? [way] : []), ...(curve ? [curve] : []), ...(described.isArm && answer.tensions ? ofArm(answer, described, system).map(sectionOf) : []));
   }
 
   clear(): void {

@@ -1,7 +1,7 @@
 // Elastic arms: what of them is turned, asked and answered where it differs from other robots. Each tendon is held by a tension or by
 // a change of its length; the other one is the answer.
 import type {Json, Robot} from './client';
-import {type Described, free, none, type Row, subscript} from './described';
+import {type Described, free, none, platformRows, type Row, subscript} from './described';
 import {round} from './outline';
 import type {State} from './state';
 
@@ -19,16 +19,23 @@ interface Tendon { name: string; path: string; section: number; radius: number; 
 function tendonsOf(answer: Json): Tendon[] {
   const counts: number[] = answer.sections.map(() => 0);
   return answer.tendons.map(({section, routes, pretension}: Json, i: number) => ({
-    name: `S${section + 1} ${subscript(counts[section] = counts[section]! + 1)}`, path: answer.inputs[i].name, section, pretension,
+    name: `${sectionName(answer, section)} ${subscript(counts[section] = counts[section]! + 1)}`, path: answer.inputs[i].name, section, pretension,
     radius: Math.max(...routes.map((route: Json) => Math.max(route.radius, route.end_radius ?? 0))),
   }));
 }
 
-const lengthTo = (answer: Json, section: number): number => answer.sections.slice(0, section + 1).reduce((sum: number, one: Json) => sum + one.length, 0);
-const stiffnessTo = (answer: Json, section: number): number => Math.min(...answer.sections.slice(0, section + 1).map((one: Json) => Math.min(...one.backbone.bending)));
+/** `S1`; of a platform on arms with its leg before it, `L2 S1`. */
+export function sectionName({sections}: Json, section: number): string {
+  const {leg} = sections[section];
+  return leg === undefined ? `S${section + 1}` : `L${leg + 1} S${section - sections.findIndex((one: Json) => one.leg === leg) + 1}`;
+}
+
+const sectionsTo = ({sections}: Json, section: number): Json[] => sections.slice(0, section + 1).filter(({leg}: Json) => leg === sections[section].leg);
+const lengthTo = (answer: Json, section: number): number => sectionsTo(answer, section).reduce((sum: number, one: Json) => sum + one.length, 0);
+const stiffnessTo = (answer: Json, section: number): number => Math.min(...sectionsTo(answer, section).map((one: Json) => Math.min(...one.backbone.bending)));
 
 function rowsOf(answer: Json): Record<Held, Row[]> {
-  const tendons = tendonsOf(answer), row = (name: string, one: Tendon) => ({name: one.name.replace(' ', ` ${name}`), path: one.path, limits: none});
+  const tendons = tendonsOf(answer), row = (name: string, one: Tendon) => ({name: one.name.replace(/ (?=\S+$)/, ` ${name}`), path: one.path, limits: none});
   return {
     tension: tendons.map((one) => {
       const most = round((bend * stiffnessTo(answer, one.section)) / (one.radius * lengthTo(answer, one.section)));
@@ -58,9 +65,25 @@ export async function armDescribed(robot: Robot, answer: Json): Promise<Describe
   const rows = rowsOf(answer), held: Held[] = rows.tension.map(() => 'tension'), tensions = byTendons(answer, rows.tension.map(({home}) => home));
   const [home] = await robot.ask([{query: 'forward', tensions, tilt: true}]) as [Json];
   return {
-    answer, isSerial: false, isArm: true, isPlanar: false, isHeldByFew: false, models: answer.models, canBend: false,
+    answer, isSerial: false, isArm: true, hasArmLegs: false, isPlanar: false, isHeldByFew: false, models: answer.models, canBend: false,
     hasGravity: (answer.gravity ?? []).some((part: number) => part !== 0),
     inputs: rows.tension, pose: poseRows(answer, home.tip?.position?.every(Number.isFinite) ? home.tip : undefined), load: loadRows(answer), holding: {held, rows},
+  };
+}
+
+/** A platform on arms: its tendons are those of an arm, its pose and its load those of a platform. */
+export function armLegsDescribed(described: Json): Described {
+  const legs: Json[] = described.legs, counts = legs.map(({link}) => link.sections.length as number), first = (leg: number) => counts.slice(0, leg).reduce((sum, count) => sum + count, 0);
+  const answer: Json = {
+    ...described, length: Math.max(...legs.map(({link}) => link.length)), sections: legs.flatMap(({link}, leg) => link.sections.map((one: Json) => ({...one, leg}))),
+    tendons: legs.flatMap(({link}, leg) => link.tendons.map((one: Json) => ({...one, section: first(leg) + one.section}))),
+  };
+  const rows = rowsOf(answer), force = round((legs.length * 4 * stiffnessTo(answer, 0)) / answer.length ** 2);
+  return {
+    answer, isSerial: false, isArm: true, hasArmLegs: true, isPlanar: false, isHeldByFew: false, models: answer.models, canBend: false,
+    hasGravity: (answer.gravity ?? []).some((part: number) => part !== 0),
+    inputs: rows.tension, pose: platformRows(answer), holding: {held: rows.tension.map(() => 'tension'), rows},
+    load: [...['Fx', 'Fy', 'Fz'].map((name) => free(name, 'N', 0, force)), ...['Mx', 'My', 'Mz'].map((name) => free(name, 'N m', 0, round((force * answer.length) / 4)))],
   };
 }
 
@@ -97,11 +120,11 @@ export function tipField({answer}: Described, values: number[]): Json {
 export const tipOf = ({answer}: Described, tip: Json): number[] => (isTurned(answer) ? [tip.tilt ?? 0, tip.azimuth ?? 0] : tip.position);
 
 /** Whether the tip can be dragged to a place. */
-export const canPlace = ({isArm, answer}: Described) => !isArm || !isTurned(answer);
+export const canPlace = ({isArm, hasArmLegs, answer}: Described) => !isArm || hasArmLegs || !isTurned(answer);
 
 /** A force on the backbone beside that at the tip. */
 export function pointLoad({isArm}: Described, {load}: State): {place: number; force: number[]} | null {
-  const force = load.slice(tipParts + 1, loadParts);
+  const force = load.slice(tipParts + 1, loadParts);  // of a platform: nothing
   return isArm && force.some((part) => part !== 0) ? {place: load[tipParts]!, force} : null;
 }
 

@@ -14,7 +14,7 @@ const list = (values: number[]) => `"${values.map(short).join(', ')}"`;
 const lists = (values: (number | null)[][]) => `"${values.map((of) => of.map((value) => (value === null ? 'null' : short(value))).join(', ')).join('; ')}"`;
 
 function askedOfArm(described: Described, state: State): string {
-  const fields: Json = state.asked === 'pose' ? tipField(described, state.pose) : heldBy(described, state.inputs);
+  const fields: Json = state.asked === 'inputs' ? heldBy(described, state.inputs) : described.hasArmLegs ? {pose: state.pose} : tipField(described, state.pose);
   return Object.entries(fields).map(([name, values]) => `--${name} ${Array.isArray(values[0]) ? lists(values) : list(values)}`).join(' ');
 }
 
@@ -46,7 +46,7 @@ function commandOfPath(source: Source, described: Described, state: State): stri
 /** @param start where the search has to begin so that it ends at this solution, as `--start` has it; else null */
 export function command(source: Source, described: Described, state: State, start: number[] | null): string {
   if (state.path && state.asked === 'inputs') return commandOfPath(source, described, state);
-  const isPose = state.asked === 'pose' && !described.isSerial && !described.isArm && !described.isPlanar && !described.isHeldByFew, robot = source.word;
+  const isPose = state.asked === 'pose' && !described.isSerial && (!described.isArm || described.hasArmLegs) && !described.isPlanar && !described.isHeldByFew, robot = source.word;
   const told = isPose ? {...state, pose: [...state.pose.slice(0, 3), ...quaternionOf(state.pose.slice(3))]} : state;
   const words = ['sinew', state.asked === 'pose' ? 'inverse' : 'forward', /^[\w./-]+$/.test(robot) ? robot : quoted(robot),
                  asked(described, told, described.canBend ? state.bending : null)];

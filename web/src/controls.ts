@@ -58,19 +58,19 @@ export class Controls {
 
   /** All of them say what the state is. */
   show(described: Described, state: State): void {
-    const {holding} = described, hasTip = described.isSerial || described.isArm;
+    const {holding} = described, hasTip = described.isSerial || (described.isArm && !described.hasArmLegs);
     this.described = described;
     this.held.hidden = !holding;
     for (const [of, one] of this.ways) one.setAttribute('aria-pressed', String(!!holding && holding.held.every((each) => each === of)));
     this.sides.inputs.show(described.isSerial ? 'Bends (forward)' : described.isArm ? 'Tendons (forward)' : 'Inputs (forward)', described.inputs, state.inputs);
     this.sides.pose.show(hasTip ? 'Tip (inverse)' : 'Pose (inverse)', described.pose, state.pose);
-    this.sides.load.show(described.isArm ? 'Load on the tip, and at s' : 'Load on the platform', described.load, state.load);
+    this.sides.load.show(described.isArm && !described.hasArmLegs ? 'Load on the tip, and at s' : 'Load on the platform', described.load, state.load);
     this.gravityChoice.hidden = !described.hasGravity;
     this.gravity.checked = state.gravity;
     this.remembers.hidden = !rubs(described);
     this.rubs.checked = state.path !== null;
     this.anew.hidden = state.path === null;
-    this.sense.show(described.isArm);
+    this.sense.show(described.isArm && !described.hasArmLegs);
     const bears = bearsLoad(described, state.model);
     this.note.replaceChildren(...(bears ? [] : ['Links of this model bear no load. ', button('Take pseudo-rigid chains', () => this.wishes.change({model: 'prb'}))]));
     byId('load').classList.toggle('idle', !bears);

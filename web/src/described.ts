@@ -1,6 +1,6 @@
 // What a robot lets be asked of it: rows for its inputs, its pose and its load, each with a range and a home.
-import {armDescribed, type Held, type Holding} from './arm';
-import {type Json, Refused, type Robot} from './client';
+import {armDescribed, armLegsDescribed, type Held, type Holding} from './arm';
+import type {Json, Robot} from './client';
 import type {Unit} from './units';
 
 export interface Row {
@@ -18,6 +18,7 @@ export interface Described {
   answer: Json;  ///< to `describe`
   isSerial: boolean;
   isArm: boolean;        ///< an elastic arm: its tendons are pulled, it bears loads, and its tip is what is placed
+  hasArmLegs: boolean;   ///< of these: a platform on several, which is what is placed and loaded
   isPlanar: boolean;
   isHeldByFew: boolean;  ///< three actuators hold three coordinates of a platform in space, not its pose
   canBend: boolean;      ///< whether the sign of each leg's curvature chooses among solutions
@@ -103,8 +104,14 @@ function poseRows(answer: Json, isHeldByFew: boolean): Row[] {
     const reach = answer.legs[0].link.length / 2 || 0.1, {x, y, phi} = answer.home;
     return [free('x', 'm', x, reach), free('y', 'm', y, reach), {...free('φ', 'rad', phi, 1), path: 'phi'}];
   }
-  const [x, y, z] = answer.home.position, reach = 0.3 * z || 0.1;
+  const [, , z] = answer.home.position, reach = 0.3 * z || 0.1;
   if (isHeldByFew) return [free('z', 'm', z, reach), {...free('e₁', '', 0, 0.5), path: 'e1'}, {...free('e₂', '', 0, 0.5), path: 'e2'}];
+  return platformRows(answer);
+}
+
+/** Of a platform in space that is free to be anywhere. */
+export function platformRows({home}: Json): Row[] {
+  const [x, y, z] = home.position, reach = 0.3 * z || 0.1;
   return [free('x', 'm', x, reach), free('y', 'm', y, reach), free('z', 'm', z, reach), {...free('tilt', 'rad', 0, 0), high: 1},
           free('azimuth', 'rad', 0, Math.PI), free('torsion', 'rad', 0, 1)];
 }
@@ -124,12 +131,12 @@ const homeOf = (answer: Json, isHeldByFew: boolean): Json =>
 export async function describe(robot: Robot): Promise<Described> {
   const [answer] = await robot.ask([{query: 'describe'}]) as [Json];
   if (answer.kind === 'arm') return armDescribed(robot, answer);
-  if (answer.kind === 'arm_legs') throw new Refused(200, {error: {code: 'not_available', message: `${answer.robot}: the page shows no platforms on legs of several sections in this version; ask them by sinew forward, or from Python`}});
+  if (answer.kind === 'arm_legs') return armLegsDescribed(answer);
   const isSerial = answer.kind === 'serial', isPlanar = answer.space === 'planar';
   const isHeldByFew = !isSerial && !isPlanar && answer.freedoms.actuators < answer.freedoms.platform;
   const [home] = isSerial ? [] : await robot.ask([{query: 'inverse', ...homeOf(answer, isHeldByFew)}]);
   return {
-    answer, isSerial, isArm: false, isPlanar, isHeldByFew, models: answer.models, holding: null,
+    answer, isSerial, isArm: false, hasArmLegs: false, isPlanar, isHeldByFew, models: answer.models, holding: null,
     canBend: answer.model === 'cc',
     hasGravity: (answer.gravity ?? []).some((part: number) => part !== 0),
     inputs: isSerial ? serialInputs(answer) : parallelInputs(answer, home?.inputs ?? []),

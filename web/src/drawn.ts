@@ -32,7 +32,7 @@ const above = (value: number) => (value > 0 ? [1, 2, 2.5].map((step) => step * r
 function ofArm(described: Described, state: State, answer: Json): Partial<Drawing> {
   const {tensions, slack, places} = answer, point = pointLoad(described, state);
   let from = 0;
-  const names = (described.answer.sections as Json[]).map(({length}, i) => ({text: `S${i + 1}`, at: placeOn(answer, (from += length) - length / 2)}));
+  const names = described.hasArmLegs ? [] : (described.answer.sections as Json[]).map(({length}, i) => ({text: `S${i + 1}`, at: placeOn(answer, (from += length) - length / 2)}));
   return {
     canGrab: canPlace(described), names, ...(tensions && {pulls: {tensions, slack, most: above(Math.max(...tensions.flat(), ...(answer.tensions_along ?? []).flat())), ...(answer.tensions_along && {along: byTendons(described.answer, answer.tensions_along as number[][])})}}),
     ...(point && places && {loads: [{at: placeOn(answer, point.place), force: point.force}]}),

@@ -625,7 +625,7 @@ class Page {
   /** @param isNear whether what is asked by now goes on from here */
   private solved(answer: Json, picture: Json, state: State, question: number, isNear: boolean, begin: number): void {
     const described = this.described!, pose = poseOf(described, answer), {rival} = this;
-    if (answer.pose) state.start = plain(answer.pose);
+    if (answer.pose && !described.isArm) state.start = plain(answer.pose);
     if (isNear) this.state.start = state.start;
     if (isNear && this.state.path && state.path) this.state.path = structuredClone(state.path);
     if (state.asked === 'inputs' && pose) state.pose = pose;
@@ -737,7 +737,7 @@ class Page {
 
   /** Arms are solved for moments, then for where the tip is. */
   private residualUnit(answer: Json): string {
-    if (!this.described?.isArm) return '';
+    if (!this.described?.isArm || this.described.hasArmLegs) return '';
     return answer.query === 'inverse' ? ' of the length, or rad' : ' EI/L';
   }
 

@@ -39,6 +39,7 @@ const isSame = (a: number[], b: number[]) => a.every((value, i) => Math.abs(valu
  * @param answer of `forward`
  */
 export async function startOf(robot: Robot, described: Described, state: State, answer: Json): Promise<number[] | null> {
+  if (described.hasArmLegs) return null;
   if (described.isArm) {  // its search begins at rest, or at a shape that was chosen
     if (!state.start || state.asked === 'pose') return null;
     const [plainly] = await robot.ask([forward(described, state)]) as [Json];

@@ -34,7 +34,7 @@ export function bySection(described: Described, values: number[]): number[][] {
 
 /** Inputs, and where a search for the pose begins: a pose, of an arm the curvatures of its parts, `last`, or at home. */
 export function given(described: Described, state: State, start?: Json | string): Json {
-  if (described.isArm) return {...heldBy(described, state.inputs), ...(start && {start}), ...common(described, state)};
+  if (described.isArm) return {...heldBy(described, state.inputs), ...(Array.isArray(start) && {start}), ...common(described, state)};
   if (described.isSerial) return {configuration: bySection(described, state.inputs), ...common(described, state)};
   return {inputs: state.inputs, ...(start && {start}), ...common(described, state)};
 }
@@ -44,9 +44,12 @@ const withTilt = (described: Described) => (described.isPlanar ? {} : {tilt: tru
 /** Whether answers say if what is solved holds by itself, and by how much. */
 const hasStability = ({isArm}: Described, state: State) => isArm || state.model === 'rod';
 
+/** What is told of it. */
+export const stability = ({hasArmLegs}: Described) => (hasArmLegs ? ['stability'] : ['stability', 'margins']);
+
 /** The pose of the inputs; of rods and arms also whether it holds and by how much. */
 export function forward(described: Described, state: State, start?: Json | string): Json {
-  const wants = hasStability(described, state) ? {want: ['stability', 'margins']} : {};
+  const wants = hasStability(described, state) ? {want: stability(described)} : {};
   return {query: 'forward', ...given(described, state, start), ...withTilt(described), ...wants};
 }
 
@@ -78,7 +81,7 @@ function inFull(described: Described, state: State): Json {
   const samples = samplesOf(described, state);
   return {
     ...withTilt(described), ...(samples > 0 && hasSamples(described, state) && {samples}),
-    want: ['shape', ...(hasVelocity(described, state) ? ['velocity'] : []), ...(hasStability(described, state) ? ['stability', 'margins'] : []), ...(described.isArm ? ['stiffness'] : [])],
+    want: ['shape', ...(hasVelocity(described, state) ? ['velocity'] : []), ...(hasStability(described, state) ? stability(described) : []), ...(described.isArm ? ['stiffness'] : [])],
   };
 }
 
@@ -96,7 +99,7 @@ export function everything(described: Described, state: State, start?: Json | st
 
 function poseField(described: Described, values: number[]): Json {
   const byName = Object.fromEntries(described.pose.map((row, i) => [row.path, values[i]!]));
-  if (described.isArm) return tipField(described, values);
+  if (described.isArm && !described.hasArmLegs) return tipField(described, values);
   if (described.isSerial) return {position: values};
   if (described.isPlanar) return {pose: byName};
   if (described.isHeldByFew) return {independent: byName};
@@ -123,7 +126,7 @@ export function sensing(described: Described, state: State, position: number[]):
 export function poseOf(described: Described, answer: Json): number[] | null {
   const pose = answer.pose ?? answer.tip;
   if (!pose) return null;
-  if (described.isArm) return tipOf(described, pose);
+  if (described.isArm && !described.hasArmLegs) return tipOf(described, pose);
   if (described.isPlanar) return [pose.x, pose.y, pose.phi];
   if (described.isHeldByFew) return [pose.position[2], pose.quaternion[1], pose.quaternion[2]];
   return described.isSerial ? pose.position : [...pose.position, pose.tilt ?? 0, pose.azimuth ?? 0, pose.torsion ?? 0];

@@ -15,7 +15,7 @@ export type Path = Json[];
 export const most = 40;
 export const steps = 4;  // to each point: a loop that is seen, and still quick
 
-export const rubs = ({isArm, answer}: Described): boolean => isArm && answer.tendons.some((tendon: Json) => tendon.friction > 0);
+export const rubs = ({isArm, answer}: Described): boolean => isArm && answer.kind === 'arm' && answer.tendons.some((tendon: Json) => tendon.friction > 0);
 
 /** What holds the arm now, as a point of its path. All loads are told, also those that are none: a point says nothing of what stays. */
 export function here(described: Described, state: State): Json {

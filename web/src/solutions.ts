@@ -60,7 +60,7 @@ export class Solutions {
   async offer(robot: Robot, described: Described, state: State, pose: Json | null): Promise<void> {
     this.clear();
     const isInverse = state.asked === 'pose';
-    const {isArm} = described, hasNone = described.isSerial || (isArm ? isInverse || state.path !== null : state.model !== described.answer.model || (isInverse && state.model === 'rod'));
+    const {isArm} = described, hasNone = described.isSerial || described.hasArmLegs || (isArm ? isInverse || state.path !== null : state.model !== described.answer.model || (isInverse && state.model === 'rod'));
     if (hasNone) return void (this.title.textContent = '');
     const shown = isInverse ? state.inputs : isArm ? state.pose : pose ? numbersOf(pose) : [];
     const key = `${described.answer.robot} ${isInverse}`;

@@ -1,4 +1,5 @@
 // The picture with what belongs to it: views, layers, ghost, names of what the pointer is on.
+import {sectionName} from './arm';
 import {coordinates, withUnit} from './answer';
 import type {Json} from './client';
 import type {Described} from './described';
@@ -107,7 +108,7 @@ export class Stage {
 
   private labelOf({kind, index, tendon}: Part): string {
     if (!this.shown) return '';
-    const {answer, described} = this.shown, leg: Json = answer.legs?.[index] ?? {}, name = `${described.isSerial || described.isArm ? 'section' : 'leg'} ${index + 1}`;
+    const {answer, described} = this.shown, leg: Json = answer.legs?.[index] ?? {}, name = described.hasArmLegs && kind === 'tendon' ? sectionName(described.answer, index) : `${described.isSerial || (described.isArm && !described.hasArmLegs) ? 'section' : 'leg'} ${index + 1}`;
     const text = (value: number, unit: 'm' | 'rad' | '1/m' | 'N') => withUnit(value, unit, this.system);
     if (kind === 'platform') return coordinates(answer.pose ?? answer.tip).map(([of, value, unit]) => `${of} ${withUnit(value, unit, this.system)}`).join(', ');
     if (kind === 'tendon' && described.isArm) {
@@ -119,7 +120,7 @@ export class Stage {
       return `${name}, tendon ${(tendon ?? 0) + 1}${length === undefined ? '' : ` ${text(length, 'm')}`}`;
     }
     if (kind !== 'backbone') return name;
-    if (described.isArm) return `backbone, ${text(described.answer.length, 'm')}`;
+    if (described.isArm && !described.hasArmLegs) return `backbone, ${text(described.answer.length, 'm')}`;
     const parts = [name];
     if (leg.length !== undefined) parts.push(text(leg.length, 'm'));
     if (leg.curvature !== undefined) parts.push(`κ ${text(leg.curvature, '1/m')}`);

@@ -5,7 +5,7 @@ import type {Json, Robot} from './client';
 import {coordinates} from './answer';
 import {type Described, type Row, subscript} from './described';
 import {make} from './make';
-import {changed, forward, hasVelocity, inputsOf, inverse, isSolved, plain, velocity} from './questions';
+import {changed, forward, hasVelocity, inputsOf, inverse, isSolved, plain, stability, velocity} from './questions';
 import type {Side, State} from './state';
 import {shownValue, type System, type Unit, unitName} from './units';
 import {verdictOf} from './verdict';
@@ -50,7 +50,7 @@ function quantitiesOf(described: Described, state: State, touched: Touched): Qua
   }
   if (!isInverse(state, touched.side) && hasVelocity(described, state)) list.push({name: 'conditioning', unit: '', of: (answer) => answer.indices?.condition_homogenised ?? answer.indices?.condition});
   if (described.isArm) {
-    list.push({name: 'buckling margin', unit: '', of: (answer) => answer.buckling_margin}, {name: 'least tension', unit: 'N', of: (answer) => answer.least_tension});
+    if (!described.hasArmLegs) list.push({name: 'buckling margin', unit: '', of: (answer) => answer.buckling_margin}, {name: 'least tension', unit: 'N', of: (answer) => answer.least_tension});
     if (!isInverse(state, touched.side)) list.push(...answersOf(described));
   } else if (state.model === 'rod') {
     list.push({name: 'fold margin', unit: '', of: (answer) => answer.margins?.fold}, {name: 'strain', unit: '', of: (answer) => answer.margins?.strain},
@@ -91,7 +91,7 @@ function markJumps(samples: Sample[], numbers: (answer: Json) => number[]): void
 }
 
 function question(described: Described, state: State, side: Side | 'load', start: Json | string | undefined): Json {
-  if (isInverse(state, side)) return {...inverse(described, state), ...(!described.isPlanar && !described.isSerial && {tilt: true}), ...(described.isArm && {want: ['stability', 'margins']})};
+  if (isInverse(state, side)) return {...inverse(described, state), ...(!described.isPlanar && !described.isSerial && {tilt: true}), ...(described.isArm && {want: stability(described)})};
   return hasVelocity(described, state) ? velocity(described, state, start) : forward(described, state, start);
 }
 

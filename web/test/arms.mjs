@@ -312,12 +312,36 @@ export async function arm_friction(browser, url) {
   await done();
 }
 
-/** What the page cannot show it says, and shows what was there. */
+/** A platform on arms: tendons by leg and section, the platform's pose either way, its load; the command does the same. */
 export async function arm_legs(browser, url) {
-  const {page, done} = await open(browser, url, 'two-segment'), before = await numbers(page);
-  await page.locator('#chooser').setInputFiles(fileURLToPath(new URL('../../tests/data/robots/tripod-two-section.yaml', import.meta.url)));
-  await page.locator('body', {hasText: 'the page shows no platforms on legs of several sections'}).waitFor();
-  assert.doesNotMatch(await page.locator('body').innerText(), /internal error/);
-  assert.equal(await numbers(page), before);
+  const {page, done} = await open(browser, url, 'two-segment'), file = fileURLToPath(new URL('../../tests/data/robots/tripod-two-section.yaml', import.meta.url));
+  const place = async () => (await said(page)).pose.position;
+  await then(page, () => page.locator('#chooser').setInputFiles(file));
+  assert.equal(await verdict(page), 'SOLVED, STABLE');
+  assert.equal(await page.locator('#inputs label').first().innerText(), 'L1 S1 T₁');
+  assert.equal(await page.locator('#inputs .row').count(), 18);
+  assert.match(await numbers(page), /Pose of the platform\s+x/);
+  const before = await place(), seen = await picture(page);
+  await then(page, () => fill(page, 'inputs-0', '1'));
+  assert.ok(Math.hypot(...(await place()).map((part, i) => part - before[i])) > 1e-4, 'a tendon that moves nothing');
+  differs(await picture(page), seen, 'the picture');
+  assert.match(await numbers(page), /Tensions \[N\]\s+L1 S1 1\s+1\.000/);
+  assert.match(await numbers(page), /Compliance of the platform/);
+  const printed = JSON.parse(execFileSync('/bin/sh', ['-c', `${(await command(page)).replace(/^sinew forward \S+/, `'${sinew}' forward '${file}'`)} --json`], {encoding: 'utf8'}));
+  near(printed.pose.position, await place(), 1e-9, 'the command');
+  await tab(page, 'Load');
+  await then(page, () => fill(page, 'load-0', '0.1'));
+  assert.deepEqual(await page.locator('#view .label.load:visible').allInnerTexts(), ['0.1 N']);
+  await rested(page);
+  assert.match(await numbers(page), /(more load|load to [a-z_]+)\s+(> )?[\d.]+ ×/);
+  await looks(page, 'arm-legs');
+  await then(page, () => page.getByRole('button', {name: 'Length changes'}).click());
+  assert.equal(await page.locator('#inputs label').first().innerText(), 'L1 S1 Δ₁');
+  await then(page, () => page.getByRole('button', {name: 'Tensions'}).click());
+  await tab(page, 'Pose');
+  await then(page, () => fill(page, 'pose-0', '3 mm'));
+  assert.match(await verdict(page), /^SOLVED/);
+  near([(await place())[0]], [0.003], 1e-6, 'where it was put');
+  assert.match(await command(page), /^sinew inverse \S+ --pose "0\.003, /);
   await done();
 }

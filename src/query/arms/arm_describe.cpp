@@ -16,6 +16,15 @@ Value cross_section_value(const CrossSection& section) {
   return value;
 }
 
+Value route_value(const TendonRoute& route) {
+  Value value{{"radius", route.start_radius}, {"angle", route.start_angle}};
+  if (route.end_radius != route.start_radius) value["end_radius"] = route.end_radius;
+  if (route.end_angle != route.start_angle) value["turn"] = route.end_angle - route.start_angle;
+  return value;
+}
+
+}  // namespace
+
 Value section_value(const ArmSection& section) {
   Value value{{"type", "elastic"}, {"length", section.length}};
   value["backbone"] = cross_section_value(section.start);
@@ -31,12 +40,15 @@ Value section_value(const ArmSection& section) {
   return value;
 }
 
-Value route_value(const TendonRoute& route) {
-  Value value{{"radius", route.start_radius}, {"angle", route.start_angle}};
-  if (route.end_radius != route.start_radius) value["end_radius"] = route.end_radius;
-  if (route.end_angle != route.start_angle) value["turn"] = route.end_angle - route.start_angle;
-  return value;
+Value tendon_value(const ArmTendon& tendon) {
+  Value routes = Value::list();
+  for (const TendonRoute& route : tendon.routes) routes.push_back(route_value(route));
+  return {{"section", tendon.section()},     {"routes", routes},
+          {"compliance", tendon.compliance}, {"outside", tendon.outside},
+          {"friction", tendon.friction},     {"pretension", tendon.pretension}};
 }
+
+namespace {
 
 /// What the file says of how the arm is measured, with a number for each tendon.
 Value measurement_value(const MeasuringSetup& measurement, std::size_t tendons) {
@@ -54,10 +66,6 @@ Value measurement_value(const MeasuringSetup& measurement, std::size_t tendons) 
           {"marker", {{"place", marker.place}, {"base", marker.base}, {"tilt", marker.tilt}}}};
 }
 
-}  // namespace
-
-namespace {
-
 void describe_arm(Context& context) {
   const Arm& arm = *context.robot.arm();
   Value inputs = Value::list(), sections = Value::list(), tendons = Value::list();
@@ -67,14 +75,7 @@ void describe_arm(Context& context) {
     const auto section = static_cast<std::size_t>(tendon.section());
     const std::string name = joined(joined("sections", section) + ".tendons", counts[section]++);
     inputs.push_back({{"name", name}, {"unit", "m"}});
-    Value routes = Value::list();
-    for (const TendonRoute& route : tendon.routes) routes.push_back(route_value(route));
-    tendons.push_back({{"section", tendon.section()},
-                       {"routes", routes},
-                       {"compliance", tendon.compliance},
-                       {"outside", tendon.outside},
-                       {"friction", tendon.friction},
-                       {"pretension", tendon.pretension}});
+    tendons.push_back(tendon_value(tendon));
   }
   Value& answer = context.answer;
   answer["status"] = "converged";

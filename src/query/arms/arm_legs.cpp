@@ -31,7 +31,7 @@ constexpr Lack lacking[] = {
     {"following", not_yet}, {"distributed", not_yet}, {"distributed_following", not_yet},
     {"loads", not_yet},     {"all", not_yet},         {"balance", not_yet}};
 
-void put_legs_shape(Context& context, const ArmLegs& robot, int samples) {
+void put_legs_shape(Context& context, const ArmLegs& robot, const SE3<double>& platform, int samples) {
   ArmPicture picture;
   for (std::size_t k = 0; k < robot.legs.size(); ++k) {
     double around = 0;  // where a disc's size is not known: its tendons run within it
@@ -40,7 +40,15 @@ void put_legs_shape(Context& context, const ArmLegs& robot, int samples) {
         around = std::max({around, 1.15 * route.start_radius, 1.15 * route.end_radius});
     picture.add(robot.legs[k].arm, arm_legs_shape(*context.work.arm_legs, k), samples, around);
   }
+  std::vector<double> base, plate;
+  for (const ArmLeg& leg : robot.legs) {
+    const Vec3<double> corner = platform.p + platform.rotate(leg.platform_point);
+    base.insert(base.end(), leg.base.p.begin(), leg.base.p.end());
+    plate.insert(plate.end(), corner.begin(), corner.end());
+  }
   Value& answer = context.answer;
+  answer["base"] = Value(base, 3);
+  answer["platform"] = Value(plate, 3);
   answer["backbones"] = std::move(picture.backbones);
   answer["curvatures"] = std::move(picture.curvatures);
   answer["tendons"] = std::move(picture.tendons);
@@ -117,7 +125,7 @@ ArmLegsWorkspace& legs_work(Context& context) {
 void put_legs_wants(Context& context, const ArmLegs& robot, const ArmLegsState& state,
                     const LegsWanted& wanted) {
   if (!state.report.is_solved()) return;
-  if (wanted.words.has(Want::shape)) put_legs_shape(context, robot, wanted.samples);
+  if (wanted.words.has(Want::shape)) put_legs_shape(context, robot, state.platform, wanted.samples);
   const bool velocity = wanted.words.has(Want::velocity), stiffness = wanted.words.has(Want::stiffness);
   if (!velocity && !stiffness) return;
   const ArmLegsRates rates = arm_legs_rates(robot, *context.work.arm_legs);
@@ -391,19 +399,18 @@ void describe_arm_legs(Context& context) {
           {{"name", joined(joined(joined(joined(path, "sections"), section), "tendons"), counts[section]++)},
            {"unit", "m"}});
     }
-    Value sections = Value::list();
-    for (std::size_t m = 0; m < leg.arm.sections.size(); ++m)
-      sections.push_back({{"type", "elastic"},
-                          {"length", leg.arm.sections[m].length},
-                          {"discs", leg.arm.sections[m].discs.count},
-                          {"tendons", counts[m]}});
-    legs.push_back({{"base",
-                     {{"point", Value(leg.base.p)},
-                      {"direction", Value(leg.base.rotate(Vec3<double>(0, 0, 1)))},
-                      {"section_x", Value(leg.base.rotate(Vec3<double>(1, 0, 0)))}}},
-                    {"link", {{"type", "elastic"}, {"length", leg.arm.length()}, {"sections", sections}}},
-                    {"closure", {{"type", leg.is_clamped ? "clamp" : "ball"}}},
-                    {"platform_point", Value(leg.platform_point)}});
+    Value sections = Value::list(), tendons = Value::list();
+    for (const ArmSection& section : leg.arm.sections) sections.push_back(section_value(section));
+    for (const ArmTendon& tendon : leg.arm.tendons) tendons.push_back(tendon_value(tendon));
+    legs.push_back(
+        {{"base",
+          {{"point", Value(leg.base.p)},
+           {"direction", Value(leg.base.rotate(Vec3<double>(0, 0, 1)))},
+           {"section_x", Value(leg.base.rotate(Vec3<double>(1, 0, 0)))}}},
+         {"link",
+          {{"type", "elastic"}, {"length", leg.arm.length()}, {"sections", sections}, {"tendons", tendons}}},
+         {"closure", {{"type", leg.is_clamped ? "clamp" : "ball"}}},
+         {"platform_point", Value(leg.platform_point)}});
   }
   Value& answer = context.answer;
   answer["status"] = "converged";

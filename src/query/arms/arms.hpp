@@ -63,6 +63,12 @@ void answer_arms_identify(Context& context);
 void answer_arm_describe(Context& context);
 /// @}
 
+/// @name As `describe` has them
+/// @{
+Value section_value(const ArmSection& section);
+Value tendon_value(const ArmTendon& tendon);
+/// @}
+
 /// Numbers of all tendons as a list a section.
 Value by_end_section(const Arm& arm, std::span<const double> values);
 Value by_end_section(const std::vector<std::size_t>& counts, std::span<const double> values);
