@@ -21,6 +21,18 @@ template <class Space>
 SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                                 ChainWork& work);
 
+/// Of a solved equilibrium; the report is `unstable` where it does not hold by itself.
+template <class Space>
+ChainStability<Space> judge(const ChainLegs<Space>& robot, const ChainState<Space>& state, ChainWork& work,
+                            Report& report) {
+  ChainStability<Space> found = check_stability(robot, state, work);
+  if (report.ok() && !found.is_stable()) {
+    report.status = Status::unstable;
+    report.message.append("the equilibrium does not hold by itself: smallest_eigenvalue is not above 0");
+  }
+  return found;
+}
+
 struct ChainMargins {
   double fold;    ///< smallest singular value of the platform's stiffness over the largest: 0 at a fold
   double strain;  ///< largest of bending, of any backbone: κ d/2; NaN where no diameter is known

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/at.hpp"
+#include "kinematics/chains/questions.hpp"
 #include "kinematics/load_problem.hpp"
 #include "kinematics/rods/batch.hpp"
 #include "kinematics/rods/hold.hpp"
@@ -30,8 +31,8 @@ Equilibrium refused() {
   Equilibrium answer;
   answer.report.status = Status::unsupported;
   answer.report.message.append(
-      "the legs of this robot are no rods: arcs bear no load, and chains are asked by a Session with model "
-      "prb");
+      "the legs of this robot bear no load by its model, or this is not asked of chains; arcs do as "
+      "robot.as(Model::prb)");
   return answer;
 }
 
@@ -66,6 +67,7 @@ Equilibrium solved(const Robot& robot, const EquilibriumOptions& options, Worksp
 
 Equilibrium equilibrium(const Robot& robot, Numbers inputs, const EquilibriumOptions& options,
                         Workspace& work) {
+  if (has_chains(robot)) return equilibrium_of_chains(robot, inputs, options, work);
   return solved(robot, options, work,
                 [&](RodWork& rods, const SE3<double>& home, const RodQuestion& question) {
                   return solve_rods(rods, home, inputs, question);
@@ -82,6 +84,7 @@ Equilibrium inverse_equilibrium(const Robot& robot, const IndependentPose& wante
 
 Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose& wanted,
                                 const EquilibriumOptions& options, Workspace& work) {
+  if (has_chains(robot)) return inverse_equilibrium_of_chains(robot, wanted, options, work);
   return solved(robot, options, work,
                 [&](RodWork& rods, const SE3<double>& home, const RodQuestion& question) {
                   return hold_rods(rods, home, SE3<double>::from(wanted), question);
@@ -94,12 +97,15 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
                        std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
                        bool check_stability, std::span<double> residuals, RowStart start) {
   std::ranges::fill(residuals, not_a_number);
-  std::fill(statuses.begin(), statuses.end(), has_rods(robot) ? Status::bad_input : Status::unsupported);
+  std::fill(statuses.begin(), statuses.end(),
+            has_rods(robot) || has_chains(robot) ? Status::bad_input : Status::unsupported);
   const std::size_t inputs = at(input_count(robot));
-  if (!has_rods(robot) || !check_workspace(robot, work).ok() || statuses.size() != poses.size() ||
-      rows.size() != poses.size() * inputs || (!residuals.empty() && residuals.size() != poses.size()))
+  if (!(has_rods(robot) || has_chains(robot)) || !check_workspace(robot, work).ok() ||
+      statuses.size() != poses.size() || rows.size() != poses.size() * inputs ||
+      (!residuals.empty() && residuals.size() != poses.size()))
     return;
-  if (RodWork& rods = rods_of(work); rods.system->elastica()) {
+  if (has_rods(robot) && rods_of(work).system->elastica()) {
+    RodWork& rods = rods_of(work);
     const SpatialWrench whole = question_of(robot, {.wrench = wrench}, rods).wrench;
     go_home(rods, home_of(robot));  // whatever was solved before does not show
     RodBatch batch(rods, home_of(robot));
@@ -215,6 +221,7 @@ double RodAnalysis::rotation_index() const {
 }
 
 Equilibrium held_equilibrium(const Robot& robot, Workspace& work) {
+  if (has_chains(robot)) return held_equilibrium_of_chains(robot, work);
   if (!has_rods(robot)) return refused();
   if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
   if (!work.rods->is_solved) return refused();
@@ -247,11 +254,14 @@ std::string_view to_string(LoadEnd end) noexcept {
       return "stopped";
     case LoadEnd::stalled:
       return "stalled";
+    case LoadEnd::slack:
+      return "slack";
   }
   return "";
 }
 
 LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
+  if (has_chains(robot)) return follow_load_of_chains(robot, direction, limit, work);
   LoadPath path;
   path.end = LoadEnd::stalled;
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || !direction.allFinite() ||
@@ -315,6 +325,7 @@ FoundEquilibrium found_equilibrium(const Report& report, RodWork& rods, Workspac
 
 std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
                                          const EquilibriumOptions& options, Workspace& work) {
+  if (has_chains(robot)) return equilibria_of_chains(robot, inputs, options, work);
   std::vector<FoundEquilibrium> found;
   if (!has_rods(robot) || !check_workspace(robot, work).ok()) return found;
   const SE3<double> home = home_of(robot);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/at.hpp"
+#include "kinematics/chains/questions.hpp"
 #include "kinematics/rods/question.hpp"
 #include "kinematics/rods/sense.hpp"
 #include "kinematics/rods/verdict.hpp"
@@ -46,6 +47,7 @@ bool resume_sensing(RodWork& rods, Numbers inputs, RodSensing& sensing, Report& 
 
 SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Numbers deviations,
                           const EquilibriumOptions& options, Workspace& work) {
+  if (has_chains(robot)) return sense_wrench_of_chains(robot, inputs, axial, deviations, options, work);
   SensedWrench sensed{};
   const auto is_number = [](double x) { return std::isfinite(x); };
   const bool has_six = robot.rod_count() == 6 && leg_count(robot) == 6;

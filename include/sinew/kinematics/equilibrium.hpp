@@ -1,6 +1,13 @@
 /// @file equilibrium.hpp
 /// Forward and inverse kinematics of robots whose legs bear load: where a platform on rods comes to rest
 /// under a wrench, and which lengths hold it at wanted coordinates. Theory: docs/theory/rod_robot.md
+///
+/// Of a robot by the model prb (`robot.as(Model::prb)`) `equilibrium`, `inverse_equilibrium` at a pose,
+/// `held_equilibrium`, `follow_load`, `equilibria`, `equilibrium_batch` and `sense_wrench` are asked of its
+/// pseudo-rigid chains, whose inputs are those of arcs: lengths of tendon 1 [m], before them the angles of
+/// base motors [rad]. They allocate, have no coordinates and no gravity; residuals are in m; `slack` is an
+/// equilibrium in which a tendon would have to push. A robot in the plane is in the plane z = 0: its wrench
+/// is (fx, fy, 0, 0, 0, m). Theory: docs/theory/chain_equilibrium.md
 #pragma once
 #include <optional>
 #include <vector>
@@ -131,6 +138,7 @@ enum class LoadEnd {
   iterations,   ///< the bound on steps was met
   stopped,      ///< on request
   stalled,      ///< none of these, and no step however short succeeds
+  slack,        ///< a tendon of a chain would have to push
 };
 /// Its name: `bifurcation`.
 SINEW_API std::string_view to_string(LoadEnd end) noexcept;

@@ -19,6 +19,9 @@ struct SensedWrench {
 /// The wrench under which the rods of these lengths pull so at their guides. In the place of the wrench the
 /// pose is the unknown: at fixed lengths it makes all forces, and the wrench is what they leave over.
 /// `singular` where the forces do not tell (or no pose near the unloaded one makes them).
+/// Of chains (model prb) of as many legs as the platform has freedoms the same of the tendons whose lengths
+/// are held, one a leg: where tendon 1 is the outer one, of the inner one. In the plane sensitivity and
+/// covariance are 0 but for fx, fy and m, and sensitivity has a column for each of the three legs.
 /// @param inputs lengths of the six rods [m]
 /// @param axial of each of six rods, pull > 0 [N]
 /// @param deviations standard deviations of these, independent of each other [N]

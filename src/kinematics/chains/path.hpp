@@ -13,21 +13,36 @@
 
 namespace sinew::inline v1 {
 
+/// An equilibrium that a typed question found, and the robot with its bases as motors turn them.
+template <class Space>
+struct HeldChains {
+  ChainLegs<Space> robot;
+  ChainState<Space> state;
+  Report report;
+};
+
 /// What a solver keeps in the work of whoever asks.
 template <class Space>
 struct ChainMemory {
   ChainGroup<Space> group;
   LimbState spare;
   LimbPlaces<Space> places;
+  std::shared_ptr<HeldChains<Space>> held;  ///< what the last typed question found
 };
+
+/// The memory of a work. Allocates the first time.
+template <class Space>
+ChainMemory<Space>& memory_in(ChainWork& work) {
+  std::shared_ptr<void>& kept = Space::dimension == 2 ? work.planar : work.spatial;
+  if (!kept) kept = std::make_shared<ChainMemory<Space>>();
+  return *static_cast<ChainMemory<Space>*>(kept.get());
+}
 
 /// The group of a work, at this state. Allocates the first time.
 template <class Space>
 ChainMemory<Space>& memory_of(ChainWork& work, const ChainLegs<Space>& robot, const ChainState<Space>& state,
                               const ChainOptions& options = {}) {
-  std::shared_ptr<void>& kept = Space::dimension == 2 ? work.planar : work.spatial;
-  if (!kept) kept = std::make_shared<ChainMemory<Space>>();
-  auto& memory = *static_cast<ChainMemory<Space>*>(kept.get());
+  auto& memory = memory_in<Space>(work);
   memory.group.set_robot(robot, options.evenly_bent);
   memory.group.set_state(state);
   return memory;

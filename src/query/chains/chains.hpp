@@ -115,17 +115,5 @@ HeldInputs hold_inputs(const Context& context, const ChainLegs<Space>& robot, Nu
   return hold_inputs(twin_of(context), robot, inputs, start, context.max_iterations.value_or(100));
 }
 
-/// Of a solved equilibrium; the report is `unstable` where it does not hold by itself.
-template <class Space>
-ChainStability<Space> judge(const ChainLegs<Space>& robot, const ChainState<Space>& state, ChainWork& work,
-                            Report& report) {
-  ChainStability<Space> found = check_stability(robot, state, work);
-  if (report.ok() && !found.is_stable()) {
-    report.status = Status::unstable;
-    report.message.append("the equilibrium does not hold by itself: smallest_eigenvalue is not above 0");
-  }
-  return found;
-}
-
 }  // namespace chains
 }  // namespace sinew::inline v1
