@@ -53,6 +53,7 @@ void put_legs_shape(Context& context, const ArmLegs& robot, const SE3<double>& p
   answer["curvatures"] = std::move(picture.curvatures);
   answer["tendons"] = std::move(picture.tendons);
   answer["discs"] = std::move(picture.discs);
+  answer["frames"] = Value::list({pose_value(AnyPose(spatial_pose(platform)))});
 }
 
 /// Numbers of an equilibrium, of the answer or of a row of it.
