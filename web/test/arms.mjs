@@ -335,10 +335,16 @@ export async function arm_legs(browser, url) {
   await rested(page);
   assert.match(await numbers(page), /(more load|load to [a-z_]+)\s+(> )?[\d.]+ ×/);
   await looks(page, 'arm-legs');
+  await tab(page, 'Inputs');
   await then(page, () => page.getByRole('button', {name: 'Length changes'}).click());
   assert.equal(await page.locator('#inputs label').first().innerText(), 'L1 S1 Δ₁');
   await then(page, () => page.getByRole('button', {name: 'Tensions'}).click());
+  await tab(page, 'Load');
+  await then(page, () => page.getByRole('button', {name: 'Zero'}).click());
+  await tab(page, 'Inputs');
+  await then(page, () => page.locator('#inputs').getByRole('button', {name: 'Home'}).click());
   await tab(page, 'Pose');
+  await then(page, () => fill(page, 'pose-2', '198 mm'));
   await then(page, () => fill(page, 'pose-0', '3 mm'));
   assert.match(await verdict(page), /^SOLVED/);
   near([(await place())[0]], [0.003], 1e-6, 'where it was put');
