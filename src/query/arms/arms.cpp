@@ -148,7 +148,8 @@ void read_arm_start(Question& context, ArmOptions& options, std::vector<std::arr
   if (!start) return;
   if (start->is(Node::Kind::list)) {
     if (!shape)
-      start->fail("wrong_type", "a shape to begin at is of forward, velocity and shape; here it is last");
+      return start->fail("wrong_type",
+                         "a shape to begin at is of forward, velocity and shape; here it is last");
     const auto parts = start->items();
     if (parts.empty() || parts.size() > most_parts)
       start->fail("wrong_length",
