@@ -153,12 +153,10 @@ class Robot(Verbs):
     def _tendon_counts(self) -> list[int]:
         """How many tendons end at each section; of legs of sections those of leg 0 first."""
         about = self._about()._plain()
-        if about.get("kind") == "arm_legs":
-            return [section["tendons"] for leg in about["legs"] for section in leg["link"]["sections"]]
-        sections = about.get("sections", [])
-        if about.get("kind") == "arm":
-            return [sum(tendon["section"] == m for tendon in about["tendons"]) for m in range(len(sections))]
-        return [section["tendons"]["count"] for section in sections]
+        arms = [leg["link"] for leg in about["legs"]] if about.get("kind") == "arm_legs" else [about]
+        if about.get("kind") in ("arm", "arm_legs"):
+            return [sum(tendon["section"] == m for tendon in arm["tendons"]) for arm in arms for m in range(len(arm["sections"]))]
+        return [section["tendons"]["count"] for section in about.get("sections", [])]
 
     def _is_of_tendons(self, name: str) -> bool:
         """Whether a field has a number of every tendon, a list a section in questions, all in a row in columns."""

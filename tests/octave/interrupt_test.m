@@ -14,7 +14,7 @@ function interrupted (what, call)
   unlink (file);
   printf ('%s: %s', what, said);
   assert (isempty (strfind (said, 'went on')));
-  assert (sscanf (said, 'ended after %f') < 10);
+  assert (sscanf (said, 'ended after %f') < 30);  % to their end they take minutes
 end
 
 interrupted ('rows', 'r.forward (repmat (0.407 * ones (1, 6), 2000000, 1))');

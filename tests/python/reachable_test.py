@@ -34,6 +34,17 @@ def questions(robot):
         yield "statics", {"changes": rest.changes, "position": rest.tip.position}
         yield "track", {"points": [{"changes": rest.changes}, {"wrench": [0, 0, 0.01, 0, 0, 0]}], "steps": 1}
         return
+    if about.kind == "arm_legs":
+        rest = robot.forward(changes=[])
+        pose = rest.pose.to_dict()
+        for verb in ("forward", "velocity", "shape"):
+            yield verb, {"changes": rest.changes}
+        yield "forward", {"tensions": rest.tensions}
+        yield "inverse", {"pose": pose}
+        yield "inverse", {"position": rest.pose.position}
+        yield "statics", {"changes": rest.changes, "pose": pose}
+        yield "track", {"points": [{"changes": rest.changes}, {"wrench": [0, 0, 0.01, 0, 0, 0]}], "steps": 1}
+        return
     home = about.home.to_dict()
     yield "inverse", {"pose": home}
     yield "velocity", {"pose": home}

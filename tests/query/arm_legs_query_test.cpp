@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "paths.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {
 namespace arm_legs_query_test {
 
-const std::string tripod = std::string(source_folder) + "/tests/data/robots/tripod-two-section.yaml";
+const std::string tripod = "tripod-two-section";
 
 Json of_all_legs(std::initializer_list<double> section) {
   Json lists = Json::array();

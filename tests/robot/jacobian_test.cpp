@@ -20,7 +20,8 @@ std::vector<std::string> every_robot() {
   for (const std::string_view name : robot_template_names())
     names.push_back(std::string(source_folder) + "/examples/robots/" + std::string(name) + ".yaml");
   std::erase_if(names, [](const std::string& name) {
-    return is_serial(read_robot_file(name).value()) || bears_load(load(name).value());
+    return is_serial(read_robot_file(name).value()) || load(name).value().arm_legs() ||
+           bears_load(load(name).value());
   });
   return names;
 }

@@ -34,7 +34,7 @@ VALUES = ["nonsense", "-1 mm", "0 mm", "1 kg", -1, [1]]
 
 
 def files():
-    folders = ["robots", "examples/robots", "tests/data/robots"]
+    folders = ["robots", "examples/robots"]
     found = sorted(file for folder in folders for file in ROOT.glob(f"{folder}/*.yaml"))
     assert len(found) >= 12, found
     return found

@@ -4,7 +4,6 @@ import {execFileSync} from 'node:child_process';
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {fileURLToPath} from 'node:url';
 import {audit, blank, differs, fill, hold, linked, looks, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
 
 const said = (page) => page.evaluate(() => window.__sinew.answer());
@@ -314,9 +313,8 @@ export async function arm_friction(browser, url) {
 
 /** A platform on arms: tendons by leg and section, the platform's pose either way, its load; the command does the same. */
 export async function arm_legs(browser, url) {
-  const {page, done} = await open(browser, url, 'two-segment'), file = fileURLToPath(new URL('../../tests/data/robots/tripod-two-section.yaml', import.meta.url));
+  const {page, done} = await open(browser, url, 'tripod-two-section');
   const place = async () => (await said(page)).pose.position;
-  await then(page, () => page.locator('#chooser').setInputFiles(file));
   assert.equal(await verdict(page), 'SOLVED, STABLE');
   assert.equal(await page.locator('#inputs label').first().innerText(), 'L1 S1 T₁');
   assert.equal(await page.locator('#inputs .row').count(), 18);
@@ -327,7 +325,7 @@ export async function arm_legs(browser, url) {
   differs(await picture(page), seen, 'the picture');
   assert.match(await numbers(page), /Tensions \[N\]\s+L1 S1 1\s+1\.000/);
   assert.match(await numbers(page), /Compliance of the platform/);
-  const printed = JSON.parse(execFileSync('/bin/sh', ['-c', `${(await command(page)).replace(/^sinew forward \S+/, `'${sinew}' forward '${file}'`)} --json`], {encoding: 'utf8'}));
+  const printed = JSON.parse(execFileSync('/bin/sh', ['-c', `${(await command(page)).replace(/^sinew/, `'${sinew}'`)} --json`], {encoding: 'utf8'}));
   near(printed.pose.position, await place(), 1e-9, 'the command');
   await tab(page, 'Load');
   await then(page, () => fill(page, 'load-0', '0.1'));
