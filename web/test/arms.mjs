@@ -28,7 +28,7 @@ export async function arm_answers(browser, url) {
   const asked = held.asked.map((text) => JSON.parse(text));
   assert.deepEqual(asked.map((all) => all.map(({query}) => query)), [['forward']]);
   assert.deepEqual(asked[0][0].tensions, [[4, 0, 0], [0, 0, 0]]);
-  await held.release();
+  await then(page, () => held.release());
   await rested(page);
   await page.unrouteAll({behavior: 'ignoreErrors'});
   assert.equal(await verdict(page), 'SOLVED, STABLE');
