@@ -40,7 +40,7 @@ def _shape_of_arm(robot: Robot, answer: Answer) -> dict[str, Any] | None:
     """The same question, with its shape: what was sensed or aimed at is found again, the same."""
     asked = answer.question._plain()
     verb = asked.pop("query", "")
-    if robot._about()._plain().get("kind") != "arm" or verb not in VERBS:
+    if robot._about()._plain().get("kind") not in ("arm", "arm_legs") or verb not in VERBS:
         return None
     plain: dict[str, Any] = robot._ask(verb, {**asked, "want": ["shape"]})._plain()
     return plain if "backbones" in plain else None
@@ -73,10 +73,10 @@ def shape_of(robot: Robot, answer: Any) -> dict[str, Any]:
 def shape_at_home(robot: Robot) -> dict[str, Any]:
     about = robot._about()._plain()
     candidates: list[dict[str, Any]] = [{"configuration": [[0.0, 0.0] for _ in about["sections"]]}] if "sections" in about else []
-    if about.get("kind") == "arm":
-        candidates = [{"changes": []}]
     home = about.get("home")
-    if home:
+    if about.get("kind") in ("arm", "arm_legs"):
+        candidates = [{"changes": []}]
+    elif home:
         candidates.append({"pose": home})
         for limits in [entry.get("limits") for entry in about["inputs"]][:1]:
             if limits:

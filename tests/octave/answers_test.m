@@ -86,6 +86,14 @@ function questions = questions_of (r)
                  ask('track', 'points', {struct('changes', {{}})}, 'steps', 2), ask('statics'), ask('diagram')};
     return
   end
+  if strcmp (d.kind, 'arm_legs')
+    f = r.forward ('changes', []);
+    place = round (f.pose.position * 1e6) * 1e-6;
+    questions = {ask('forward', 'changes', []), ask('inverse', 'position', place), ask('shape', 'changes', [], 'samples', 3), ...
+                 ask('velocity', 'changes', []), ask('track', 'from', f.pose, 'to', f.pose), ...
+                 ask('track', 'points', {struct('changes', {{}})}, 'steps', 2), ask('statics'), ask('diagram')};
+    return
+  end
   if isfield (d.home, 'x')
     pose = d.home;  beyond = setfield (pose, 'x', pose.x + 0.001);  wrench = [0.01 -0.02 0.001];
   else
