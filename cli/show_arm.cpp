@@ -138,13 +138,14 @@ std::string show_arm_legs_robot(const OpenRobot& robot) {
   TextTable table({"leg", "sections", "tendons", "length[mm]", "closure", "base[m]", "platform_point[m]"});
   const auto& legs = about.find("legs")->items;
   for (std::size_t k = 0; k < legs.size(); ++k) {
-    std::string tendons;
     const auto& sections = at(legs[k], "link.sections")->items;
-    for (const Node& section : sections)
-      tendons += (tendons.empty() ? "" : "+") + six_digits(number(section, "tendons"));
-    table.add({fmt::format("legs[{}]", k), fmt::format("{}", sections.size()), tendons,
-               shown_at(legs[k], "link.length", "m"), at(legs[k], "closure.type")->text,
-               vector_text(at(legs[k], "base.point")), vector_text(at(legs[k], "platform_point"))});
+    std::vector<int> counts(sections.size());
+    for (const Node& tendon : at(legs[k], "link.tendons")->items)
+      ++counts[static_cast<std::size_t>(number(tendon, "section"))];
+    table.add({fmt::format("legs[{}]", k), fmt::format("{}", sections.size()),
+               fmt::format("{}", fmt::join(counts, "+")), shown_at(legs[k], "link.length", "m"),
+               at(legs[k], "closure.type")->text, vector_text(at(legs[k], "base.point")),
+               vector_text(at(legs[k], "platform_point"))});
   }
   return text + table.text();
 }
