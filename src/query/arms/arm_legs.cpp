@@ -188,7 +188,6 @@ void answer_legs(Context& context, const LegsForward& asked) {
 
 /// The points of a path; what a point does not say is as at the point before, of loads as in the question.
 std::vector<ArmLegsStep> read_legs_points(Context& context, const ArmLegs& robot) {
-  constexpr int default_steps = 10, max_steps = 10000;
   Reader& query = context.query;
   const ArmLegsLoad load = read_legs_load(query);
   std::vector<ArmLegsStep> path;
@@ -217,16 +216,7 @@ std::vector<ArmLegsStep> read_legs_points(Context& context, const ArmLegs& robot
     point.close();
     path.push_back(std::move(step));
   }
-  if (list.is(Node::Kind::list) && list.items().empty())
-    list.fail("empty_list", "a path needs at least one point");
-  int steps = default_steps;
-  if (const auto given = query.optional("steps")) steps = given->integer(Range::between(1, max_steps));
-  const auto rows = path.size() * static_cast<std::size_t>(steps);
-  if (rows > static_cast<std::size_t>(max_path_samples))
-    list.fail("path_too_long",
-              fmt::format("{} points of {} steps are {} rows; an answer has at most {}: follow the path in "
-                          "parts, with start: last",
-                          path.size(), steps, rows, max_path_samples));
+  const int steps = read_path_steps(query, list, path.size());
   for (ArmLegsStep& step : path) step.divisions = steps;
   return path;
 }

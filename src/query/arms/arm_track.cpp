@@ -11,9 +11,23 @@
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
-namespace {
 
-constexpr int default_steps = 10, max_steps = 10000;
+int read_path_steps(Reader& query, const Reader& list, std::size_t points) {
+  constexpr int default_steps = 10, max_steps = 10000;
+  if (list.is(Node::Kind::list) && list.items().empty())
+    list.fail("empty_list", "a path needs at least one point");
+  int steps = default_steps;
+  if (const auto given = query.optional("steps")) steps = given->integer(Range::between(1, max_steps));
+  const auto rows = points * static_cast<std::size_t>(steps);
+  if (rows > static_cast<std::size_t>(max_path_samples))
+    list.fail("path_too_long",
+              fmt::format("{} points of {} steps are {} rows; an answer has at most {}: follow the path in "
+                          "parts, with start: last",
+                          points, steps, rows, max_path_samples));
+  return steps;
+}
+
+namespace {
 
 /// The points of the path; what a point does not say is as at the point before, of loads as in the question.
 std::vector<ArmStep> read_points(ArmContext& context) {
@@ -36,16 +50,7 @@ std::vector<ArmStep> read_points(ArmContext& context) {
     if (!path.empty()) path.back().load = std::move(at_point);
     point.close();
   }
-  if (list.is(Node::Kind::list) && list.items().empty())
-    list.fail("empty_list", "a path needs at least one point");
-  int steps = default_steps;
-  if (const auto given = query.optional("steps")) steps = given->integer(Range::between(1, max_steps));
-  const auto rows = path.size() * static_cast<std::size_t>(steps);
-  if (rows > static_cast<std::size_t>(max_path_samples))
-    list.fail("path_too_long",
-              fmt::format("{} points of {} steps are {} rows; an answer has at most {}: follow the path in "
-                          "parts, with start: last",
-                          path.size(), steps, rows, max_path_samples));
+  const int steps = read_path_steps(query, list, path.size());
   for (ArmStep& step : path) step.divisions = steps;
   return path;
 }

@@ -56,6 +56,9 @@ struct ArmForward {
 };
 ArmForward read_arm_forward(ArmContext& context);
 
+/// `steps` to each point of a path, whose `list` has so many.
+int read_path_steps(Reader& query, const Reader& list, std::size_t points);
+
 /// @name In files of their own
 /// @{
 void answer_arms_track(Context& context);
