@@ -123,6 +123,10 @@ export class Newest {
   private busy = false;
   private waiting: (() => Promise<void>) | null = null;
 
+  get isBusy(): boolean {
+    return this.busy;
+  }
+
   put(task: () => Promise<void>): void {
     this.waiting = task;
     if (!this.busy) void this.run();

@@ -507,7 +507,7 @@ export async function operate_aids(browser, url) {
   assert.match(bytes, /set-points \[rad\]: \[\[0,0\]/);
   await page.evaluate(() => { window.__pad.buttons[15].pressed = true; });
   await until(page, () => document.querySelector('.section.chosen .name').textContent === 'S2');
-  await answered(page, () => page.evaluate(() => { window.__pad.axes = [1, 0, 0, -1]; }));
+  await page.evaluate(() => { window.__pad.axes = [1, 0, 0, -1]; });
   await until(page, () => window.__sinew.operate.frame.sections[1].point[0] > 0.01 && window.__sinew.operate.frame.sections[4].point[1] > 0.01);
   await page.evaluate(() => { window.__pad.axes = [0, 0, 0, 0]; });
   await shot(page, 'operate-camera');

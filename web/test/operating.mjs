@@ -30,11 +30,12 @@ export async function see(browser, url, robot, more = '', options = {}) {
   return opened;
 }
 
-/** Does something and waits for the answer of the arm of sliders. */
+/** Does something and waits for the last answer of the arm of sliders: a drag asks many times, and a busy machine answers some of them only. */
 export async function answered(page, act) {
   const before = await page.evaluate(() => window.__sinew.operate.frame.time);
   await act();
-  await until(page, (time) => window.__sinew.operate.frame.time > time, before);
+  await drawn(page);  // moves of a pointer come with the next picture
+  await until(page, (time) => window.__sinew.operate.frame.time > time && !window.__sinew.operate.subject.isAsking, before);
 }
 
 export const bends = [[0.1, -0.05], [-0.1, 0.1], [0.05, 0.1], [0.1, 0.2], [0.1, 0.05]];

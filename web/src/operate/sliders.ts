@@ -137,6 +137,11 @@ export class Sliders implements Subject {
     return '';
   }
 
+  /** For tests: an answer is still to come. */
+  get isAsking(): boolean {
+    return this.newest.isBusy;
+  }
+
   show(): void {
     const chosen = this.stand.chosen();
     if (this.plan) {
