@@ -18,6 +18,12 @@ constexpr double saddle_step = 0.3;
 /// In which tendons that become taut or slack in a step are found.
 constexpr int most_guesses = 6;
 
+double farthest(std::span<const double> a, std::span<const double> b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
 }  // namespace
 
 /// What a tendon held by its end is longer than its free length, below 0 where it is slack [m].
@@ -363,41 +369,48 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
   }
 }
 
+/// Where loads have no potential, of an equilibrium that is not judged to hold: pushed a little to where the
+/// energy's part falls, does it come back? If not, where it comes to rest takes its place.
+bool LoadedRod::comes_back(const RelaxOptions& options, Relaxed& result) {
+  const std::vector<double> here = work_.y;
+  std::vector<double> direction(at(model_->size));
+  make_symmetric(*model_, work_);
+  lowest(direction);
+  work_.symmetric = false;
+  const double scale = std::sqrt(model_->energy_scale);
+  for (std::size_t i = 0; i < here.size(); ++i) work_.y[i] += 0.03 * scale * direction[i];
+  const int iterations = result.iterations;
+  result = relax_residual(options, 1);
+  result.iterations += iterations;
+  if (result.status != Status::converged) return false;
+  const bool is_back = farthest(work_.y, here) < 1e-6 * scale;
+  judge(result);
+  if (is_back) result.negative = 0;
+  return is_back;
+}
+
 /// An equilibrium that holds, where loads have no potential.
 Relaxed LoadedRod::relax_without_potential(const RelaxOptions& options) {
   RelaxOptions quick = options;
   quick.max_iterations = std::min(options.max_iterations, 8);
   const std::vector<double> start = work_.y;
   Relaxed result = relax_residual(quick, 0);
-  if (result.status == Status::stopped || (result.status == Status::converged && judge(result)))
-    return result;
-  int iterations = result.iterations;
+  if (result.status == Status::stopped) return result;
+  if (result.status == Status::converged) {
+    if (judge(result)) return result;
+    // As along a path, whose places are known to hold.
+    const bool is_near = farthest(work_.y, start) < 0.1 * std::sqrt(model_->energy_scale);
+    if (is_near && comes_back(options, result)) return result;
+  }
+  const int before = result.iterations;
   work_.y = start;
   result = relax_residual(options, 1);
   for (int round = 0; round < 4 && result.status == Status::converged; ++round) {
-    iterations += result.iterations;
-    if (judge(result)) break;
-    // Pushed a little to where the energy's part falls, does it come back?
-    const std::vector<double> here = work_.y;
-    std::vector<double> direction(at(model_->size));
-    make_symmetric(*model_, work_);
-    lowest(direction);
-    work_.symmetric = false;
-    const double scale = std::sqrt(model_->energy_scale);
-    for (std::size_t i = 0; i < here.size(); ++i) work_.y[i] += 0.03 * scale * direction[i];
-    result = relax_residual(options, 1);
-    double moved = 0;
-    for (std::size_t i = 0; i < here.size(); ++i) moved = std::max(moved, std::abs(work_.y[i] - here[i]));
-    if (result.status == Status::converged) {
-      judge(result);
-      if (moved < 1e-6 * scale) {
-        result.negative = 0;
-        break;
-      }
-      if (result.negative == 0 && round == 3) result.status = Status::unstable;
-    }
+    if (judge(result) || comes_back(options, result)) break;
+    if (result.status == Status::converged && result.negative == 0 && round == 3)
+      result.status = Status::unstable;
   }
-  result.iterations = iterations;
+  result.iterations += before;
   return result;
 }
 

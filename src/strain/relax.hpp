@@ -161,6 +161,7 @@ class LoadedRod {
   Relaxed tighten(const RelaxOptions& options, double share, std::vector<double> expected);
   Relaxed grow(const RelaxOptions& options, double softness);
   bool judge(Relaxed& result);
+  bool comes_back(const RelaxOptions& options, Relaxed& result);
   double gradient_norm() const;
 
   void solve_small(std::span<double> t) const;

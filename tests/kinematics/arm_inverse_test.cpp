@@ -69,6 +69,26 @@ TEST(ArmInverse, SaysWhatCannotBeReached) {
             Status::bad_input);
 }
 
+// Hard ones once took minutes, and told the tip of another equilibrium than that of their tensions.
+TEST(ArmInverse, WhatComesNearestIsWhatItsTensionsGive) {
+  const Arm arm = two_sections();
+  std::mt19937 gen(9);
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (int round = 0; round < 4; ++round) {
+    ArmLoad load;
+    load.following = {-2 * share(gen), 0, 0, 0, 0.1 * share(gen), 0};
+    const ArmTarget target{.position = std::array{0.05 * share(gen), 0.05 * share(gen), 0.15},
+                           .quaternion = std::array{1.0, 0.4 * share(gen), 0.1 * share(gen), 0.0}};
+    ArmWorkspace work(arm);
+    const ArmInverse nearest = arm_inverse(arm, target, load, {.starts = 3}, work);
+    EXPECT_LT(nearest.report.iterations, 700) << round;
+    if (!nearest.report.is_solved() && nearest.report.status != Status::unreachable) continue;
+    const ArmState& again =
+        arm_forward(arm, tensions(nearest.state.tensions), load, {.from_last = true}, work);
+    EXPECT_LT((again.tip.p - nearest.state.tip.p).norm(), 1e-7) << round;
+  }
+}
+
 TEST(ArmSense, FindsTheForceFromTensionsAndTip) {
   const Arm arm = two_sections(10, 1e-4);
   std::mt19937 gen(5);

@@ -49,6 +49,24 @@ TEST(ArmQueries, AnswersDoNotDependOnQuestionsBefore) {
   for (const Json& answer : alone) EXPECT_EQ(answer["status"], "converged") << answer;
 }
 
+/// Tendons held and a force with a moment, which has no potential: the speed of the tip alone tells of the
+/// fold. Steps from an equilibrium whose stiffness is not definite went back to the straight arm before.
+TEST(ArmQueries, AFoldUnderAMoment) {
+  Json question{
+      {"query", "forward"},
+      {"changes", {{-6.4e-05, 6.1e-4, 7.6e-4}, {-0.0266, 2.2e-4, 6.1e-05}, {6e-05, -0.003, -0.0054}}},
+      {"wrench", {1.775, 0.011, 0.547, 0.057, -0.00014, -0.0023}},
+      {"until", {{"wrench", {-0.2067, -0.0174, -0.006, -0.0045, 1.334, -0.036}}, {"limit", 1}}}};
+  std::vector<double> loads;
+  for (const int order : {0, 1}) {
+    question["order"] = order;
+    const Json path = ask("ftdcr-v4", {question})[0];
+    EXPECT_EQ(path["why"], "fold") << path;
+    loads.push_back(path["load"]);
+  }
+  EXPECT_NEAR(loads[0] / loads[1], 1, 0.01);
+}
+
 TEST(ArmQueries, InverseIsForwardBack) {
   const Json there = ask("two-segment", {{{"query", "forward"}, {"tensions", {{2, 0, 0}, {0, 1, 0}}}}})[0];
   const Json back = ask("two-segment", {{{"query", "inverse"}, {"position", there["tip"]["position"]}}})[0];

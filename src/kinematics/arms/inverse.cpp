@@ -26,12 +26,24 @@ class PulledArm final : public PulledBody {
   std::vector<double> last_tensions() const override {
     return work_.impl().level >= 0 ? work_.impl().state.tensions : std::vector<double>();
   }
+  void keep() override {
+    kept_level_ = work_.impl().level;
+    kept_ = work_.impl().rod().work().y;
+  }
+  /// The workspace begins again from what was kept.
+  void bring_back() {
+    if (kept_level_ < 0) return;
+    work_.impl().level = kept_level_;
+    work_.impl().rod().work().y = kept_;
+  }
 
  private:
   const Arm& arm_;
   const ArmLoad& load_;
   ArmOptions options_;
   ArmWorkspace& work_;
+  int kept_level_ = -1;
+  std::vector<double> kept_;  ///< coordinates of the arm's strain
 };
 
 }  // namespace
@@ -52,27 +64,40 @@ ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const ArmLoad& l
     return best;
   }
   const double length = arm.length(), usual = usual_tension(arm);
-  PulledArm body(arm, load, options.arm, work);
-  const FoundTensions found =
-      search_tensions(target,
-                      {.tendons = arm.tendons.size(),
+  TensionSearch search{.tendons = arm.tendons.size(),
                        .length = length,
                        .usual = usual,
                        .most = options.most_tension > 0 ? options.most_tension : 1e3 * usual,
                        .precision = options.precision,
                        .starts = options.starts,
-                       .from_last = options.arm.from_last},
-                      body);
-  const Status status = found.report.status;
-  if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
-    return answer(found.report);
-  if (!(found.report.residual < 1e300))
-    return answer({Status::stalled, found.report.iterations, 0,
-                   FixedText<240>("no equilibrium was found to begin from")});
-  // the workspace is left in what is answered
-  body.pull(found.tensions, true);
-  answer(found.report);
-  best.report.residual = off_target(target, best.state.tip, length);
+                       .from_last = options.arm.from_last,
+                       .most_work = 10000};
+  // The model's usual polynomials find the way; those that the accuracy needs only its end.
+  ArmOptions coarse = options.arm;
+  coarse.accuracy = 0;
+  int iterations = 0;
+  for (int round = 0; round < 4; ++round) {
+    PulledArm body(arm, load, round == 0 ? coarse : options.arm, work);
+    const FoundTensions found = search_tensions(target, search, body);
+    iterations += found.report.iterations;
+    const Status status = found.report.status;
+    if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
+      return answer(found.report);
+    if (!(found.report.residual < 1e300))
+      return answer(
+          {Status::stalled, iterations, 0, FixedText<240>("no equilibrium was found to begin from")});
+    // the workspace is left in what is answered
+    body.bring_back();
+    PulledArm end(arm, load, options.arm, work);
+    answer(end.pull(found.tensions, true));
+    best.report.iterations = iterations;
+    if (!best.report.is_solved()) return best;
+    best.report.residual = off_target(target, best.state.tip, length);
+    if (found.report.residual > options.precision || best.report.residual <= options.precision) break;
+    search.from_last = true;
+    search.starts = 1;
+    search.most_work = 1000;
+  }
   if (best.report.residual > 10 * options.precision) {
     best.report.status = Status::unreachable;
     best.report.message = unreachable_words("tip", "the arm's", options.most_tension, best.report.residual);

@@ -95,7 +95,7 @@ ResolutionLadder::Step ResolutionLadder::begin(bool warm, double size) {
     knows_ = !(rung_->checked * shrunk * shrunk * error_ratio(options_, coarser, last) <= 0.3 * wanted_);
     if (!knows_) rung_->level = coarser;
   }
-  if (!refines_) rung_->checked = 0;
+  if (!refines_) rung_->checked = rung_->checked_size = 0;
   return aim(Aim::answer, rung_->level, last);
 }
 

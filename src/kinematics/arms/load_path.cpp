@@ -11,6 +11,9 @@ namespace {
 
 constexpr double buckled = 1e-6;   ///< a margin that counts as none
 constexpr double shortest = 1e-9;  ///< a step over what was reached that is not worth another
+constexpr int most_steps = 2000;
+constexpr int most_iterations = 20000;  ///< of all steps
+constexpr int most_in_a_step = 60;      ///< iterations: a shorter step pays, then
 
 /// An equilibrium on the way.
 struct Place {
@@ -41,6 +44,8 @@ class LoadWalk {
     }
     options_.from_last = true;
     options_.accuracy = 0;  // the resolution stays
+    full_iterations_ = options_.max_iterations;
+    options_.max_iterations = std::min(full_iterations_, most_in_a_step);
     last_ = measured(0);
     path_.margin = last_.margin;
     first_ = before_ = last_;
@@ -76,36 +81,46 @@ class LoadWalk {
     const double a = before_.margin * before_.margin, b = last_.margin * last_.margin;
     return (last_.load - before_.load) * b / (a - b);
   }
+  /// Where there is no potential the tip's speed alone tells where an arm snaps: it grows as one over the
+  /// root.
+  double turns_in() const {
+    const double a = 1 / (before_.speed * before_.speed), b = 1 / (last_.speed * last_.speed);
+    return (last_.load - before_.load) * b / (a - b);
+  }
   /// How far there is nothing to fear.
   double room() const {
-    if (!has_potential() || !(last_.margin < before_.margin) || !(last_.load > before_.load))
-      return std::numeric_limits<double>::infinity();
-    return std::min(buckles_in(), snaps_in());
+    constexpr double any = std::numeric_limits<double>::infinity();
+    if (!(last_.load > before_.load)) return any;
+    if (!has_potential()) return last_.speed > before_.speed ? turns_in() : any;
+    return last_.margin < before_.margin ? std::min(buckles_in(), snaps_in()) : any;
   }
 
   /// One step, or a shorter one to try; returns the next one's length.
   double advance(double step) {
     const double left = room();
-    if (has_potential() && (last_.margin < buckled || left < shortest * std::max(last_.load, first_step_))) {
-      path_.end = last_.speed * last_.margin > 1e-3 * first_.speed * first_.margin ? LoadEnd::fold
-                                                                                   : LoadEnd::bifurcation;
+    const bool is_at_end = left < shortest * std::max(last_.load, first_step_);
+    if (is_at_end || (has_potential() && last_.margin < buckled)) {
+      const bool turns = last_.speed * last_.margin > 1e-3 * first_.speed * first_.margin;
+      path_.end = turns || !has_potential() ? LoadEnd::fold : LoadEnd::bifurcation;
       if (std::isfinite(left))
-        path_.load = last_.load + (path_.end == LoadEnd::fold ? snaps_in() : buckles_in());
+        path_.load = last_.load + (!has_potential() ? turns_in() : turns ? snaps_in() : buckles_in());
       return 0;
     }
     step = std::min({step, 0.5 * left, limit_ - last_.load});
     const std::vector<double> held = work_.impl().rod().work().y;
     const ArmState& state = solve(last_.load + step);
     ++path_.steps;
+    iterations_ += state.report.iterations;
     if (state.report.status == Status::stopped) return end_at(held, LoadEnd::stopped);
     const double moved = (state.tip.p - last_.tip).norm() / arm_.length();
     const bool follows = state.report.ok() && moved <= 4 * step * last_.speed + 1e-4 && moved < 0.1;
+    const bool is_spent = path_.steps >= most_steps || iterations_ >= most_iterations;
     if (!follows) {
-      const Status status = state.report.status;
-      if (step > shortest * std::max(last_.load, first_step_)) {
-        take_back(held);
-        return 0.5 * step;
-      }
+      if (is_spent) return end_at(held, LoadEnd::iterations);
+      take_back(held);
+      if (step > shortest * std::max(last_.load, first_step_)) return 0.5 * step;
+      options_.max_iterations = full_iterations_;
+      const Status status = solve(last_.load + step).report.status;
       return end_at(held, !has_potential() && status == Status::unstable ? LoadEnd::stability
                           : has_potential()                              ? LoadEnd::fold
                                                                          : LoadEnd::stalled);
@@ -115,7 +130,7 @@ class LoadWalk {
     last_ = measured(last_.load + step);
     path_.load = last_.load, path_.margin = last_.margin, path_.state = work_.impl().state;
     if (!has_potential() && last_.margin < 0 && path_.definite_until < 0) path_.definite_until = before_.load;
-    if (path_.steps >= 2000) path_.end = LoadEnd::iterations;
+    if (is_spent) path_.end = LoadEnd::iterations;
     return moved < 0.03 ? 1.6 * step : step;
   }
 
@@ -139,6 +154,7 @@ class LoadWalk {
   ArmLoadPath path_;
   Place first_, before_, last_;
   double first_step_ = 0;
+  int iterations_ = 0, full_iterations_ = 0;
 };
 
 }  // namespace
