@@ -19,6 +19,17 @@ typename Space::Pose in_space(const AnyPose& pose) {
   return nowhere(Space{});
 }
 
+/// A pose in the plane is one in the plane z = 0 of space ...
+inline SpatialPose in_space(const PlanarPose& pose) {
+  const double half = wrap_angle(pose.phi) / 2;
+  return {Vec3<double>(pose.x, pose.y, 0), {std::cos(half), 0, 0, std::sin(half)}};
+}
+/// ... and such a one in space, turned about z alone, is one in the plane.
+inline PlanarPose in_plane(const SpatialPose& pose) {
+  const auto& q = pose.quaternion;
+  return {pose.position[0], pose.position[1], wrap_angle(2 * std::atan2(q[3], q[0]))};
+}
+
 /// The pose of a frame, its angle or quaternion as answers have it.
 inline PlanarPose pose_of(const SE2<double>& frame) { return planar_pose(frame); }
 inline SpatialPose pose_of(const SE3<double>& frame) { return spatial_pose(frame); }
