@@ -7,8 +7,8 @@
 
 #include "base/limits.hpp"
 #include "kinematics/chains/chain_group.hpp"
+#include "kinematics/effort_sensor.hpp"
 #include "math/linalg.hpp"
-#include "solve/continuation.hpp"
 #include "solve/message.hpp"
 
 namespace sinew::inline v1 {
@@ -102,14 +102,8 @@ template <class Space, class Put, class Steps>
 ParameterPath follow_path(ChainMemory<Space>& memory, StopToken stop, int max_iterations, Put&& put,
                           const Steps& steps) {
   auto& group = memory.group;
-  ParameterPath end;
-  follow_parameter(end, {{1, 1e-9, stop}, 0, max_iterations}, [&](double next, double taken) {
-    group.save(memory.spare);
-    put(next);
-    if (correct(group, end.iterations, steps)) return ParameterStep{ParameterStep::reached, 2 * taken};
-    group.restore(memory.spare);
-    return ParameterStep{ParameterStep::failed, taken / 4};
-  });
+  const ParameterPath end = follow_parts(group, memory.spare, {{1, 1e-9, stop}, 0, max_iterations}, put,
+                                         [&](int& iterations) { return correct(group, iterations, steps); });
   if (!end.arrived) {
     group.evaluate();
     group.linearise();

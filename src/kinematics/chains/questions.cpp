@@ -301,9 +301,7 @@ SensedWrench sense_of(const Robot& robot, Numbers inputs, Numbers tensions, Numb
   }
   if (options.check_stability) judge(held->robot, held->state, solver_memory(work), sensed.report);
   constexpr auto axes = axes_of<Space>();
-  Vec<double, Space::dof> spread(deviations.data());
-  const auto scaled = (found.sensitivity * spread.asDiagonal()).eval();
-  const auto covariance = (scaled * scaled.transpose()).eval();
+  const auto covariance = covariance_of<Space::dof>(found.sensitivity, deviations);
   sensed.wrench.setZero();
   for (std::size_t r = 0; r < count; ++r) {
     const auto row = static_cast<Eigen::Index>(r);
