@@ -296,11 +296,11 @@ void compare_typed() {
         benchmark::DoNotOptimize(analyse_equilibrium(one->robot, one->work));
       },
       one->forward(R"("pose","legs","stiffness","stability","margins","sensitivity")"));
-  const EquilibriumOptions load{.wrench = one->options.wrench};
+  const EquilibriumOptions loaded{.wrench = one->options.wrench};
   add(
       "inverse_equilibria, 8 branches",
-      [one, load] {
-        benchmark::DoNotOptimize(inverse_equilibria(one->robot, *one->options.start, load, one->work));
+      [one, loaded] {
+        benchmark::DoNotOptimize(inverse_equilibria(one->robot, *one->options.start, loaded, one->work));
       },
       R"({"query":"inverse","model":"prb","pose":{"x":0.01,"y":0,"phi":0.1},"wrench":[0.02,-0.01,3e-4],"all":true})");
 }

@@ -21,10 +21,10 @@ template <class Space>
 SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                                 ChainWork& work);
 
-/// Of a solved equilibrium; the report is `unstable` where it does not hold by itself.
+/// The same of a solved equilibrium; its report becomes `unstable` where it does not hold by itself.
 template <class Space>
-ChainStability<Space> judge(const ChainLegs<Space>& robot, const ChainState<Space>& state, ChainWork& work,
-                            Report& report) {
+ChainStability<Space> note_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                     ChainWork& work, Report& report) {
   ChainStability<Space> found = check_stability(robot, state, work);
   if (report.ok() && !found.is_stable()) {
     report.status = Status::unstable;

@@ -12,7 +12,7 @@ namespace sinew::inline v1 {
 inline PlanarPose nowhere(Planar) { return {not_a_number, not_a_number, not_a_number}; }
 inline SpatialPose nowhere(Spatial) { return {Vec3<double>::Constant(not_a_number), {1, 0, 0, 0}}; }
 
-/// A pose of the other space is not a number in this one: who did not check it gets no answer, and no crash.
+/// A pose of the other space becomes NaN: a caller that did not check it gets no answer, and no crash.
 template <class Space>
 typename Space::Pose in_space(const AnyPose& pose) {
   if (const auto* own = std::get_if<typename Space::Pose>(&pose)) return *own;

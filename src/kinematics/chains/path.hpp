@@ -21,7 +21,7 @@ struct HeldChains {
   Report report;
 };
 
-/// What a solver keeps in the work of whoever asks.
+/// What solvers keep in a caller's `ChainWork` from one question to the next.
 template <class Space>
 struct ChainMemory {
   ChainGroup<Space> group;
@@ -58,7 +58,8 @@ ChainGroup<Space>& linearised(ChainWork& work, const ChainLegs<Space>& robot,
   return group;
 }
 
-/// Who turned a joint by more since the last equilibrium [rad] would be on another branch.
+/// A joint that turned further than this since the last equilibrium [rad] may be on another branch: the step
+/// is refused.
 inline constexpr double chain_reach = 0.5;
 
 /// What a path on chains solves: an `error` of where the group is, and Newton's step that `find_step` plans

@@ -22,7 +22,7 @@ template <class Space>
 Equilibrium keep_found(const Robot& robot, std::shared_ptr<HeldChains<Space>> found, bool checks_stability,
                        std::optional<Numbers> inputs, Workspace& work) {
   if (checks_stability && is_solved(found->report))
-    judge(found->robot, found->state, solver_memory(work), found->report);
+    note_stability(found->robot, found->state, solver_memory(work), found->report);
   Equilibrium answer;
   answer.report = found->report;
   answer.pose = in_space(found->state.pose);
@@ -149,6 +149,7 @@ void put_rows(const Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::Row
               std::vector<double>& rows) {
   const auto columns = static_cast<std::size_t>(own.cols());
   rows.assign(6 * columns, 0.0);
+  if (columns == 0) return;
   for (std::size_t r = 0; r < axes_of<Space>().size(); ++r)
     std::copy_n(own.row(static_cast<Eigen::Index>(r)).data(), columns,
                 &rows[static_cast<std::size_t>(axes_of<Space>()[r]) * columns]);
@@ -299,7 +300,7 @@ SensedWrench sense_of(const Robot& robot, Numbers inputs, Numbers tensions, Numb
     held_in<Space>(work).reset();
     return sensed;
   }
-  if (options.check_stability) judge(held->robot, held->state, solver_memory(work), sensed.report);
+  if (options.check_stability) note_stability(held->robot, held->state, solver_memory(work), sensed.report);
   constexpr auto axes = axes_of<Space>();
   const auto covariance = covariance_of<Space::dof>(found.sensitivity, deviations);
   sensed.wrench.setZero();

@@ -141,7 +141,7 @@ void put_equilibrium(Context& context, const ChainLegs<Space>& robot, const Chai
   Value& answer = context.answer;
   const bool is_found = is_solved(report);
   ChainStability<Space> stability{};
-  if (is_found) stability = judge(robot, state, work, report);
+  if (is_found) stability = note_stability(robot, state, work, report);
   context.report(report);
   answer["iterations"] = report.iterations;
   put_number(answer, "residual", report.residual);
