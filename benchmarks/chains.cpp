@@ -290,7 +290,7 @@ void compare_typed() {
   };
   add("typed equilibrium from a start", solve, one->forward(R"("pose")"));
   add(
-      "... and analyse_equilibrium",
+      "the same with analyse_equilibrium",
       [one, solve] {
         solve();
         benchmark::DoNotOptimize(analyse_equilibrium(one->robot, one->work));
@@ -298,7 +298,7 @@ void compare_typed() {
       one->forward(R"("pose","legs","stiffness","stability","margins","sensitivity")"));
   const EquilibriumOptions loaded{.wrench = one->options.wrench};
   add(
-      "inverse_equilibria, 8 branches",
+      "typed inverse_equilibria, 8 branches",
       [one, loaded] {
         benchmark::DoNotOptimize(inverse_equilibria(one->robot, *one->options.start, loaded, one->work));
       },

@@ -218,8 +218,9 @@ TEST(ChainTyped, EveryShippedRobotWithChainsIsAskedHere) {
   for (const std::string_view name : builtin_robot_names()) {
     const auto loaded = load(std::string(name));
     ASSERT_TRUE(loaded);
-    if (leg_count(*loaded) > 0 && loaded->as(Model::prb))
+    if (leg_count(*loaded) > 0 && loaded->as(Model::prb)) {
       EXPECT_TRUE(std::ranges::any_of(cases, [&](const Case& one) { return one.name == name; })) << name;
+    }
   }
 }
 
@@ -415,8 +416,9 @@ TEST(ChainTyped, CurvesAreThoseOfASession) {
     const Equilibrium there =
         equilibrium(chains.robot, last.inputs, {.wrench = in_space(twice), .start = last.pose}, chains.work);
     EXPECT_LT(moved(there.pose, last.pose).norm(), 1e-8) << one.name << to_string(there.report);
-    if (!has_motors)
+    if (!has_motors) {
       for (std::size_t i = 0; i < to.size(); ++i) EXPECT_NEAR(last.inputs[i], to[i], 1e-10);
+    }
   }
 }
 
@@ -480,8 +482,9 @@ TEST(ChainTyped, OtherQuestionsAreAnsweredOrRefused) {
     const Forward found = forward(robot, inputs, {.start = from}, chains.work);
     EXPECT_EQ(found.report.status, rest.report.status) << to_string(found.report);
     ASSERT_EQ(std::holds_alternative<PlanarPose>(found.pose), robot.planar() != nullptr);
-    if (const auto* flat = std::get_if<PlanarPose>(&found.pose))
+    if (const auto* flat = std::get_if<PlanarPose>(&found.pose)) {
       EXPECT_LT(std::hypot(flat->x - rest.pose.position[0], flat->y - rest.pose.position[1]), 1e-14);
+    }
   }
 }
 
