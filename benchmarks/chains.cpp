@@ -2,6 +2,7 @@
 /// The baselines are what one writes first: all equations of [TDPCR] section 3 with closures and multipliers
 /// at once, derivatives by central differences, one dense solve.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <memory>
@@ -10,6 +11,8 @@
 #include "kinematics/chain_motion.hpp"
 #include "report.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -245,6 +248,63 @@ void compare_six_legs() {
            fmt::format("to {:.0e} m", one->residual)});
 }
 
+/// Typed questions to a robot by the model prb, each beside the same one put to a session in JSON.
+void compare_typed() {
+  struct Case {
+    Robot robot = *load("3-rfr")->as(Model::prb);
+    Workspace work{robot};
+    Session session = *Session::open("3-rfr");
+    EquilibriumOptions options;
+    std::vector<double> inputs;
+    std::string fields;  ///< of the session's questions
+    double gap = 0;
+
+    Case() {
+      options.wrench << 0.02, -0.01, 0, 0, 0, 3e-4;
+      SpatialPose pose;
+      pose.position = {0.01, 0, 0};
+      pose.quaternion = {std::cos(0.05), 0, 0, std::sin(0.05)};
+      const Equilibrium held = inverse_equilibrium(robot, pose, {}, work);
+      if (!held.is_solved()) std::abort();
+      inputs.assign(held.inputs.begin(), held.inputs.end());
+      options.start = pose;
+      fields = fmt::format(
+          R"("model":"prb","inputs":[{}],"wrench":[0.02,-0.01,3e-4],"start":{{"x":0.01,"y":0,"phi":0.1}})",
+          fmt::join(inputs, ","));
+    }
+    std::string forward(std::string_view wanted) const {
+      return fmt::format(R"({{"query":"forward",{},"want":[{}]}})", fields, wanted);
+    }
+  };
+  auto one = std::make_shared<Case>();
+  const auto add = [one](const char* what, auto&& typed, std::string question) {
+    const std::string answer = one->session.answer(question);
+    if (answer.find("\"error\"") != std::string::npos) std::abort();
+    compare(
+        {fmt::format("3-RFR, n = 6: {}", what), "the same asked of a session, in JSON", typed,
+         [one, question = std::move(question)] { benchmark::DoNotOptimize(one->session.answer(question)); },
+         fmt::format("an answer of {} bytes in JSON", answer.size())});
+  };
+  const auto solve = [one] {
+    benchmark::DoNotOptimize(equilibrium(one->robot, one->inputs, one->options, one->work));
+  };
+  add("typed equilibrium from a start", solve, one->forward(R"("pose")"));
+  add(
+      "the same with analyse_equilibrium",
+      [one, solve] {
+        solve();
+        benchmark::DoNotOptimize(analyse_equilibrium(one->robot, one->work));
+      },
+      one->forward(R"("pose","legs","stiffness","stability","margins","sensitivity")"));
+  const EquilibriumOptions loaded{.wrench = one->options.wrench};
+  add(
+      "typed inverse_equilibria, 8 branches",
+      [one, loaded] {
+        benchmark::DoNotOptimize(inverse_equilibria(one->robot, *one->options.start, loaded, one->work));
+      },
+      R"({"query":"inverse","model":"prb","pose":{"x":0.01,"y":0,"phi":0.1},"wrench":[0.02,-0.01,3e-4],"all":true})");
+}
+
 }  // namespace
 }  // namespace sinew::bench
 
@@ -255,5 +315,6 @@ int main(int argc, char** argv) {
   bench::compare_inverse();
   bench::compare_rates();
   bench::compare_six_legs();
+  bench::compare_typed();
   return bench::main(argc, argv);
 }

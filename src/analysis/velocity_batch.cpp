@@ -179,7 +179,8 @@ bool fits(const VelocityBatch& out, std::size_t poses, std::size_t legs) {
 }  // namespace
 
 bool has_velocity_batch(const Robot& robot) {
-  return !std::holds_alternative<std::monostate>(lane_robot(robot, {.coordinates = {}}));
+  return !bears_load(robot) &&
+         !std::holds_alternative<std::monostate>(lane_robot(robot, {.coordinates = {}}));
 }
 
 std::size_t velocity_batch(const Robot& robot, const PoseBatch& batch, const VelocityBatch& out,

@@ -21,10 +21,10 @@ template <class Space>
 SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                                 ChainWork& work);
 
-/// Of a solved equilibrium; the report is `unstable` where it does not hold by itself.
+/// The same of a solved equilibrium; its report becomes `unstable` where it does not hold by itself.
 template <class Space>
-ChainStability<Space> judge(const ChainLegs<Space>& robot, const ChainState<Space>& state, ChainWork& work,
-                            Report& report) {
+ChainStability<Space> note_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                     ChainWork& work, Report& report) {
   ChainStability<Space> found = check_stability(robot, state, work);
   if (report.ok() && !found.is_stable()) {
     report.status = Status::unstable;
@@ -41,11 +41,17 @@ template <class Space>
 SINEW_API ChainMargins margins(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                ChainWork& work);
 
-/// ∂(pose)/∂(inputs) at fixed wrench, twist order. Inputs are what the state holds, leg by leg: the angle of
-/// the base motor where there is one, then the length of a tendon, or the tensions of both. Allocates.
+/// A column for each of what the state holds, leg by leg: the angle of the base motor where there is one,
+/// then the length of a tendon, or the tensions of both.
 template <class Space>
-SINEW_API Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainLegs<Space>& robot,
-                                                                              const ChainState<Space>& state,
-                                                                              ChainWork& work);
+using ByInputs = Eigen::Matrix<double, Space::dof, Eigen::Dynamic>;
+/// ∂(wrench needed)/∂(inputs), the platform resting. Allocates.
+template <class Space>
+SINEW_API ByInputs<Space> input_wrench_jacobian(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                                ChainWork& work);
+/// ∂(pose)/∂(inputs) at fixed wrench, twist order. Allocates.
+template <class Space>
+SINEW_API ByInputs<Space> input_sensitivity(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                            ChainWork& work);
 
 }  // namespace sinew::inline v1

@@ -27,12 +27,13 @@ Equilibrium refused(const Report& report) {
   return answer;
 }
 
-Equilibrium refused() {
+Equilibrium refused(const Robot& robot) {
   Equilibrium answer;
   answer.report.status = Status::unsupported;
   answer.report.message.append(
-      "the legs of this robot bear no load by its model, or this is not asked of chains; arcs do as "
-      "robot.as(Model::prb)");
+      has_chains(robot)
+          ? "on chains a pose is held with all its coordinates: give a SpatialPose"
+          : "the legs of this robot bear no load by its model; arcs do as robot.as(Model::prb)");
   return answer;
 }
 
@@ -56,7 +57,7 @@ Equilibrium answer_of(const Report& report, const RodGroup& system, Workspace& w
 /// Calls `solve(rods, home, question)` and answers with what it found.
 template <class Solve>
 Equilibrium solved(const Robot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
-  if (!has_rods(robot)) return refused();
+  if (!has_rods(robot)) return refused(robot);
   if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
   RodWork& rods = rods_of(work);
   const Report report = solve(rods, home_of(robot), question_of(robot, options, rods));
@@ -222,13 +223,18 @@ double RodAnalysis::rotation_index() const {
 
 Equilibrium held_equilibrium(const Robot& robot, Workspace& work) {
   if (has_chains(robot)) return held_equilibrium_of_chains(robot, work);
-  if (!has_rods(robot)) return refused();
+  if (!has_rods(robot)) return refused(robot);
   if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
-  if (!work.rods->is_solved) return refused();
+  if (!work.rods->is_solved) {
+    Report none = failed(Status::bad_input);
+    say(none, "the workspace holds no equilibrium");
+    return refused(none);
+  }
   return answer_of({}, *work.rods->system, work, true);
 }
 
 RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
+  if (has_chains(robot)) return analyse_equilibrium_of_chains(robot, work);
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || !work.rods->is_solved) return {};
   work.rods->stop = work.stop;
   return analysis_of(robot, *work.rods);
@@ -348,6 +354,7 @@ std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
 
 std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const SpatialPose& wanted,
                                                  const EquilibriumOptions& options, Workspace& work) {
+  if (has_chains(robot)) return inverse_equilibria_of_chains(robot, wanted, options, work);
   std::vector<FoundEquilibrium> found;
   if (!has_rods(robot) || !check_workspace(robot, work).ok()) return found;
   const SE3<double> home = home_of(robot), target = SE3<double>::from(wanted);

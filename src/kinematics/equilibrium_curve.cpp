@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/chains/questions.hpp"
 #include "kinematics/rods/question.hpp"
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/trace.hpp"
@@ -65,6 +66,7 @@ std::string_view to_string(CurveEnd end) noexcept {
 
 std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const CurveOptions& how,
                                                  Workspace& work) {
+  if (has_chains(robot)) return equilibrium_curves_of_chains(robot, how, work);
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || !is_answerable(robot, how)) return {};
   RodWork& rods = rods_of(work);
   if (!rods.is_solved) return {};

@@ -13,19 +13,6 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// A Σ Aᵀ of independent deviations.
-std::array<double, 36> covariance_of(const std::array<double, 36>& rows, Numbers deviations) {
-  std::array<double, 36> covariance;
-  for (std::size_t r = 0; r < 6; ++r)
-    for (std::size_t c = 0; c < 6; ++c) {
-      double sum = 0;
-      for (std::size_t k = 0; k < 6; ++k)
-        sum += rows[6 * r + k] * rows[6 * c + k] * deviations[k] * deviations[k];
-      covariance[6 * r + c] = sum;
-    }
-  return covariance;
-}
-
 /// From the state the rods are in, at other inputs at once: as neighbour of the last answer. False, with the
 /// state as it was, where that does not lead there.
 bool resume_sensing(RodWork& rods, Numbers inputs, RodSensing& sensing, Report& report) {
@@ -84,8 +71,8 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
   if (!rods.is_solved) return sensed;
   sensed.pose = spatial_pose(rods.system->platform());
   sensed.wrench = rods.system->wrench() - weight;
-  sensed.sensitivity = sensing.rows;
-  sensed.covariance = covariance_of(sensing.rows, deviations);
+  std::copy_n(sensing.rows.data(), 36, sensed.sensitivity.begin());
+  std::copy_n(covariance_of<6>(sensing.rows, deviations).data(), 36, sensed.covariance.begin());
   return sensed;
 }
 

@@ -127,12 +127,15 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const Robot& any, const 
   return answer;
 }
 
-/// Rods without a load on the platform.
+/// Rods, or chains, without a load on the platform.
 Forward forward_loaded(const Robot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
   EquilibriumOptions unloaded;
-  if (options.start) unloaded.start = in_space<Spatial>(*options.start);
+  if (options.start)
+    unloaded.start =
+        robot.planar() ? in_space(in_space<Planar>(*options.start)) : in_space<Spatial>(*options.start);
   const Equilibrium found = equilibrium(robot, inputs, unloaded, work);
-  return {found.report, found.pose, found.coordinates};
+  const AnyPose pose = robot.planar() ? AnyPose(in_plane(found.pose)) : AnyPose(found.pose);
+  return {found.report, pose, found.coordinates};
 }
 
 }  // namespace

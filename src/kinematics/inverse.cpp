@@ -306,9 +306,8 @@ Report with_problem(const Robot& robot, const AnyPose& pose, const InverseOption
                    : refused(Status::left_domain, "the pose is not a finite number in every coordinate");
       },
       [] {
-        return refused(
-            Status::unsupported,
-            "the legs bear load: their inputs hold an equilibrium; ask for independent coordinates");
+        return refused(Status::unsupported,
+                       "the legs bear load: their inputs hold an equilibrium; ask inverse_equilibrium");
       });
 }
 

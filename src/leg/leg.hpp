@@ -210,6 +210,14 @@ struct Leg {
   /// Why `solutions_at` found none.
   void explain_unreachable(const Frame& platform, FixedText<240>& text) const {
     const Point r = offset<double>(platform);
+    if constexpr (HasSlide<Link>) {
+      std::array<Coordinates, 8> roots;
+      if (closure.coordinates_at(link, r, {}, domain(), roots) > 0) {  // the strut reaches
+        text.append(Link::beyond_domain);
+        text.append(" along its rail; choose a pose nearer to its base");
+        return;
+      }
+    }
     if constexpr (!HasStrut<Closure>)
       if (const double needed = link.arc().curvature_from_chord(r.norm());
           needed >= drive.domain() && needed < link.arc().bounds().domain) {

@@ -156,7 +156,7 @@ struct LimbPlace {
   Vec<double, Space::dof + 1> tangent = Vec<double, Space::dof + 1>::Zero();  ///< unit, see Tracer
 };
 
-/// Memory of whoever follows a curve by its arc length.
+/// Memory for following a curve by its arc length.
 template <class Space>
 using LimbPlaces = std::array<LimbPlace<Space>, 4>;
 /// ... so large that states of this group do not allocate.

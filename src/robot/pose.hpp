@@ -12,11 +12,22 @@ namespace sinew::inline v1 {
 inline PlanarPose nowhere(Planar) { return {not_a_number, not_a_number, not_a_number}; }
 inline SpatialPose nowhere(Spatial) { return {Vec3<double>::Constant(not_a_number), {1, 0, 0, 0}}; }
 
-/// A pose of the other space is not a number in this one: who did not check it gets no answer, and no crash.
+/// A pose of the other space becomes NaN: a caller that did not check it gets no answer, and no crash.
 template <class Space>
 typename Space::Pose in_space(const AnyPose& pose) {
   if (const auto* own = std::get_if<typename Space::Pose>(&pose)) return *own;
   return nowhere(Space{});
+}
+
+/// A pose in the plane is one in the plane z = 0 of space ...
+inline SpatialPose in_space(const PlanarPose& pose) {
+  const double half = wrap_angle(pose.phi) / 2;
+  return {Vec3<double>(pose.x, pose.y, 0), {std::cos(half), 0, 0, std::sin(half)}};
+}
+/// ... and such a one in space, turned about z alone, is one in the plane.
+inline PlanarPose in_plane(const SpatialPose& pose) {
+  const auto& q = pose.quaternion;
+  return {pose.position[0], pose.position[1], wrap_angle(2 * std::atan2(q[3], q[0]))};
 }
 
 /// The pose of a frame, its angle or quaternion as answers have it.

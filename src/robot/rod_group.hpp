@@ -1,6 +1,6 @@
 /// @file rod_group.hpp
 /// Rods between a base and a platform: what questions ask of them beside what they ask of all limbs, and what
-/// every group of rods holds. Nobody but tests and the batch knows which group it is.
+/// every group of rods holds. Only tests and the batch depend on which group it is.
 #pragma once
 #include <cmath>
 

@@ -3,8 +3,16 @@
 /// and what follows a target that moves a little. From anywhere: sinew/solve/newton.hpp. Theory:
 /// docs/theory/continuation.md
 #pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace sinew::inline v1 {
+
+/// The larger of two errors; NaN stays.
+inline double worse(double a, double b) {
+  return std::isfinite(b) ? std::max(a, std::abs(b)) : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// Newton's method as long as each step halves the error, at most twelve of them; on below `tolerance` while
 /// it gains a digit a step, down to `rounding`.

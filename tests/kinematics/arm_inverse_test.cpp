@@ -113,6 +113,29 @@ TEST(ArmSense, FindsTheForceFromTensionsAndTip) {
   }
 }
 
+TEST(ArmSense, RefusesWhatIsNoMeasurement) {
+  const Arm arm = two_sections(10, 1e-4);
+  ArmWorkspace work(arm);
+  ArmMeasurement good;
+  good.held.assign(6, {TendonHeld::change, -0.001});
+  good.answers.assign(6, 1.0);
+  good.tip = {0.01, 0, 0.18};
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  std::vector<ArmMeasurement> wrong(7, good);
+  wrong[0].answers[2] = endless;
+  (*wrong[1].tip)[1] = std::nan("");
+  wrong[2].tension_deviation = 0;
+  wrong[3].tip_deviation = -1e-3;
+  wrong[4].change_deviation = endless;
+  wrong[5].answers.pop_back();
+  wrong[6].held.pop_back();
+  for (const ArmMeasurement& measured : wrong) {
+    const ArmSensed felt = arm_sense(arm, measured, {}, false, {}, work);
+    EXPECT_EQ(felt.report.status, Status::bad_input);
+    EXPECT_FALSE(felt.report.message.empty());
+  }
+}
+
 /// Tendons that are held by tension tell little of a force, and the tip of a slender arm is where it can be
 /// only after it has bent: an undamped step asks for a hundred newtons along the arm.
 TEST(ArmSense, FindsTheForceFromTheTipAlone) {

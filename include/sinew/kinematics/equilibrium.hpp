@@ -2,12 +2,11 @@
 /// Forward and inverse kinematics of robots whose legs bear load: where a platform on rods comes to rest
 /// under a wrench, and which lengths hold it at wanted coordinates. Theory: docs/theory/rod_robot.md
 ///
-/// Of a robot by the model prb (`robot.as(Model::prb)`) `equilibrium`, `inverse_equilibrium` at a pose,
-/// `held_equilibrium`, `follow_load`, `equilibria`, `equilibrium_batch` and `sense_wrench` are asked of its
-/// pseudo-rigid chains, whose inputs are those of arcs: lengths of tendon 1 [m], before them the angles of
-/// base motors [rad]. They allocate, have no coordinates and no gravity; residuals are in m; `slack` is an
-/// equilibrium in which a tendon would have to push. A robot in the plane is in the plane z = 0: its wrench
-/// is (fx, fy, 0, 0, 0, m). Theory: docs/theory/chain_equilibrium.md
+/// A robot by the model prb (`robot.as(Model::prb)`) is asked the same of its pseudo-rigid chains, but for
+/// `inverse_equilibrium` at independent coordinates. Their inputs are those of arcs: lengths of tendon 1 [m],
+/// before them the angles of base motors [rad]. They allocate, have no coordinates and no gravity; residuals
+/// are in m; `slack` is an equilibrium in which a tendon would have to push. A robot in the plane is in the
+/// plane z = 0: its wrench is (fx, fy, 0, 0, 0, m). Theory: docs/theory/chain_equilibrium.md
 #pragma once
 #include <optional>
 #include <vector>
@@ -96,7 +95,19 @@ SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const Spatial
 /// holds none the report is not one of success.
 SINEW_API Equilibrium held_equilibrium(const Robot& robot, Workspace& work);
 
-/// What is known of the equilibrium a workspace holds.
+/// What a pseudo-rigid chain of a leg does, in the order of its joints from the base.
+struct ChainResult {
+  std::vector<double> angles;             ///< of the sprung joints [rad]
+  double chord_force = 0;                 ///< of the chord or the strut [N]; > 0 pulls the platform
+  std::array<double, 2> tension{};        ///< of tendons 1 and 2 [N]; below 0 where it would have to push
+  std::array<double, 2> tendon_length{};  ///< of tendons 1 and 2 [m]
+  SpatialWrench tip_wrench = SpatialWrench::Zero();  ///< that its joints tell of, at its tip [N, N m]
+  double base_angle = LegState::absent;    ///< of the first link from x [rad]; NaN without a motor there
+  double motor_torque = LegState::absent;  ///< of the motor on the first link [N m]; NaN without
+};
+
+/// What is known of the equilibrium a workspace holds, on rods or on chains. In the plane rows and columns
+/// of z and of turns about x and y are 0.
 struct RodAnalysis {
   /// ∂(F, M)/∂(p, φ) at fixed inputs, 6 × 6, rows first [N/m, N; N, N m]; 0 for motions that closing legs
   /// forbid.
@@ -107,13 +118,21 @@ struct RodAnalysis {
   /// Twists [m, rad], of norm 1, along which the platform's stiffness is negative
   std::vector<std::array<double, 6>> unstable;
   std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
-  std::vector<RodResult> rods;                    ///< in the order of the legs
+  std::vector<RodResult> rods;                    ///< in the order of the legs; none of chains
+  std::vector<ChainResult> chains;                ///< in the order of the legs; none of rods
   std::vector<Vec3<double>>
-      closing_forces;         ///< of the platform on each closing leg, at its point, base axes [N]
-  double energy = 0;          ///< of all rods [J]
-  double potential = 0;       ///< of rods and load [J]; with a moment on the platform there is none: NaN
-  double smallest_pivot = 0;  ///< of the platform's stiffness, as a share of the largest: 0 at a fold
-  double largest_strain = 0;  ///< of bending, anywhere on a rod: κ d/2, of a strip at a corner [1]
+      closing_forces;  ///< of the platform on each closing leg, at its point, base axes [N]
+  double energy = 0;   ///< elastic, of all rods, or springs of chains [J]
+  /// Of rods and load, of chains with tendons held at tensions [J]; with a moment in space there is none: NaN
+  double potential = 0;
+  /// Of the platform's stiffness, as a share of the largest: 0 at a fold. Of chains by singular values.
+  double smallest_pivot = 0;
+  /// Of bending, anywhere on a rod: κ d/2, of a strip at a corner [1]; NaN of chains without a diameter
+  double largest_strain = 0;
+  /// Of chains: of the energy's Hessian along what closures and held lengths leave free [N m], > 0 where the
+  /// equilibrium holds by itself. NaN of rods, whose unstable directions are counted without.
+  double smallest_eigenvalue = LegState::absent;
+  bool is_in_plane = false;  ///< the robot can only move in the plane z = 0
 
   /// The platform can move with all lengths held.
   bool is_singular() const { return !(smallest_pivot >= 1e-10); }
@@ -123,8 +142,8 @@ struct RodAnalysis {
   SINEW_API double rotation_index() const;  ///< [rad/m], see `position_index`
 };
 
-/// Of robots on rods. Where the workspace holds no equilibrium, and of other robots, the lists are empty.
-/// Allocates.
+/// Of robots on rods or chains. Where the workspace holds no equilibrium, and of other robots, the lists are
+/// empty. Allocates.
 SINEW_API RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work);
 
 /// Why a load path ended.
@@ -180,15 +199,16 @@ SINEW_API std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers i
                                                    const EquilibriumOptions& options, Workspace& work);
 
 /// Equilibria of one pose on several branches, each with its inputs, found by ways from home through many
-/// poses around it; as `equilibria` else. The first way is that of `inverse_equilibrium`.
+/// poses around it; as `equilibria` else. The first way is that of `inverse_equilibrium`. On chains they are
+/// those of the arcs' working modes.
 SINEW_API std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const SpatialPose& wanted,
                                                            const EquilibriumOptions& options,
                                                            Workspace& work);
 
 /// Rates of the inputs [m/s] that move the platform so, into `rates`: those for which K·(rates) = J·(twist),
 /// of fewer rows where legs close beside the rods. `singular` where none do, within 1e-9.
-/// @param twist six numbers [m/s, rad/s], base axes; or three, of a robot with three inputs: ż, ωx, ωy, the
-/// others follow. No heap.
+/// @param twist six numbers [m/s, rad/s], base axes; or three: of a robot in the plane vx, vy, ω, of another
+/// with three inputs ż, ωx, ωy, the others follow. No heap.
 SINEW_API Report rod_rates(const RodAnalysis& analysis, Numbers twist, std::span<double> rates);
 
 /// What the platform does at these rates of the inputs [m/s]: U·(rates) [m/s, rad/s], base axes. `singular`

@@ -74,7 +74,9 @@ struct EquilibriumCurve {
 
 /// Curves through the equilibrium the workspace holds; the first is the one it was asked for. Empty where it
 /// holds none, or where what is asked for is not finite, does not fit the robot, or is what it begins with.
-/// Afterwards the workspace holds none. Allocates.
+/// On chains a curve leads to a wrench or to inputs that hold the same tendons as its beginning (no leg bends
+/// to the other side, and no motor turns a base), not to a pose; residuals are in m. Afterwards the workspace
+/// holds none. Allocates.
 SINEW_API std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const CurveOptions& how,
                                                            Workspace& work);
 

@@ -24,30 +24,20 @@ class MeasuredLegs final : public LoadedBody {
     has_begun_ = true;
     return report;
   }
-  bool compare(std::vector<double>& off, std::vector<double>& rows) override {
+  bool compare(Comparison& with) override {
     const ArmLegsState& state = work_.impl().state;
     const ArmLegsRates rates = arm_legs_rates(robot_, work_);
     if (!rates.regular) return false;
-    const auto add = [&](double difference, const double* row, double deviation) {
-      off.push_back(difference / deviation);
-      for (std::size_t k = 0; k < 6; ++k) rows.push_back(row[k] / deviation);
-    };
-    for (std::size_t i = 0; i < measured_.answers.size(); ++i) {
-      if (std::isnan(measured_.answers[i])) continue;
-      const bool is_change = measured_.held[i].held == TendonHeld::tension;
-      add(measured_.answers[i] - (is_change ? state.changes[i] : state.tensions[i]),
-          rates.answers_by_wrench.data() + 6 * i,
-          is_change ? measured_.change_deviation : measured_.tension_deviation);
-    }
+    with.add_tendons(measured_, state, rates.answers_by_wrench);
     if (measured_.position)
       for (std::size_t i = 0; i < 3; ++i)
-        add((*measured_.position)[i] - state.platform.p[static_cast<int>(i)], rates.compliance.data() + 6 * i,
-            measured_.position_deviation);
+        with.add((*measured_.position)[i] - state.platform.p[static_cast<int>(i)],
+                 rates.compliance.data() + 6 * i, measured_.position_deviation);
     if (!measured_.quaternion) return true;
     const SE3<double> seen = SE3<double>::from({{0, 0, 0}, *measured_.quaternion});
     const auto turn = twist_between(state.platform, seen);
     for (std::size_t i = 3; i < 6; ++i)
-      add(turn[static_cast<int>(i)], rates.compliance.data() + 6 * i, measured_.angle_deviation);
+      with.add(turn[static_cast<int>(i)], rates.compliance.data() + 6 * i, measured_.angle_deviation);
     return true;
   }
 
@@ -72,7 +62,9 @@ ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& mea
   const auto bad = [&](std::string_view words) {
     if (misfit.ok() && !words.empty()) misfit = {Status::bad_input, 0, 0, FixedText<240>(words)};
   };
-  bad(measurement_misfit(robot.tendons(), measured.held, measured.answers, others, unknowns));
+  bad(measurement_misfit(robot.tendons(), measured.held, measured.answers, others, unknowns,
+                         {measured.tension_deviation, measured.change_deviation, measured.position_deviation,
+                          measured.angle_deviation}));
   const auto finite = [](double x) { return std::isfinite(x); };
   if (measured.position && !std::ranges::all_of(*measured.position, finite))
     bad("the position is not finite");
@@ -81,11 +73,6 @@ ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& mea
     for (const double x : *measured.quaternion) square += x * x;
     if (!(square > 0 && std::isfinite(square))) bad("the quaternion has no length, or is not finite");
   }
-  for (const double answer : measured.answers)
-    if (std::isinf(answer)) bad("what is measured of a tendon is not finite");
-  for (const double deviation : {measured.tension_deviation, measured.change_deviation,
-                                 measured.position_deviation, measured.angle_deviation})
-    if (!(deviation > 0 && std::isfinite(deviation))) bad("a standard deviation is not above 0");
   if (!misfit.ok()) {
     sensed.report = misfit;
     sensed.state = work.impl().state;

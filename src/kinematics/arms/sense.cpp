@@ -1,5 +1,6 @@
 #include "kinematics/arms/sense_search.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinematics/arms/arm_work.hpp"
@@ -22,25 +23,15 @@ class MeasuredArm final : public LoadedBody {
     options_.from_last = from_last;
     return arm_forward(arm_, measured_.held, load_, options_, work_).report;
   }
-  bool compare(std::vector<double>& off, std::vector<double>& rows) override {
+  bool compare(Comparison& with) override {
     const ArmState& state = work_.impl().state;
     const ArmRates rates = arm_rates(arm_, work_, false);
     if (!rates.regular) return false;
-    const auto add = [&](double difference, const double* row, double deviation) {
-      off.push_back(difference / deviation);
-      for (std::size_t k = 0; k < 6; ++k) rows.push_back(row[k] / deviation);
-    };
-    for (std::size_t i = 0; i < measured_.answers.size(); ++i) {
-      if (std::isnan(measured_.answers[i])) continue;
-      const bool is_change = measured_.held[i].held == TendonHeld::tension;
-      add(measured_.answers[i] - (is_change ? state.changes[i] : state.tensions[i]),
-          rates.answers_by_wrench.data() + 6 * i,
-          is_change ? measured_.change_deviation : measured_.tension_deviation);
-    }
+    with.add_tendons(measured_, state, rates.answers_by_wrench);
     if (measured_.tip)
       for (std::size_t i = 0; i < 3; ++i)
-        add((*measured_.tip)[i] - state.tip.p[static_cast<int>(i)], rates.compliance.data() + 6 * i,
-            measured_.tip_deviation);
+        with.add((*measured_.tip)[i] - state.tip.p[static_cast<int>(i)], rates.compliance.data() + 6 * i,
+                 measured_.tip_deviation);
     return true;
   }
 
@@ -58,8 +49,12 @@ ArmSensed arm_sense(const Arm& arm, const ArmMeasurement& measured, const ArmLoa
                     const ArmOptions& options, ArmWorkspace& work) {
   ArmSensed sensed;
   const std::size_t unknowns = force_alone ? 3 : 6;
-  const auto misfit =
-      measurement_misfit(arm.tendons.size(), measured.held, measured.answers, measured.tip ? 3 : 0, unknowns);
+  auto misfit =
+      measurement_misfit(arm.tendons.size(), measured.held, measured.answers, measured.tip ? 3 : 0, unknowns,
+                         {measured.tension_deviation, measured.change_deviation, measured.tip_deviation});
+  const auto finite = [](double x) { return std::isfinite(x); };
+  if (misfit.empty() && measured.tip && !std::ranges::all_of(*measured.tip, finite))
+    misfit = "the tip's place is not finite";
   if (!misfit.empty()) {
     sensed.report = {Status::bad_input, 0, 0, FixedText<240>(misfit)};
     sensed.state = work.impl().state;

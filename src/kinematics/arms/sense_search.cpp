@@ -45,13 +45,17 @@ double usual_force(const Arm& arm) {
 
 std::string_view measurement_misfit(std::size_t tendons, const std::vector<TendonCommand>& held,
                                     const std::vector<double>& answers, std::size_t others,
-                                    std::size_t unknowns) {
+                                    std::size_t unknowns, std::initializer_list<double> deviations) {
   if (held.size() != tendons) return "what is held is not given of every tendon";
   if (!answers.empty() && answers.size() != tendons)
     return "what is measured is not given of every tendon; what is not known is not a number";
   std::size_t count = others;
-  for (const double answer : answers)
+  for (const double answer : answers) {
+    if (std::isinf(answer)) return "what is measured of a tendon is not finite";
     if (!std::isnan(answer)) ++count;
+  }
+  for (const double deviation : deviations)
+    if (!(deviation > 0 && std::isfinite(deviation))) return "a standard deviation is not above 0";
   if (count < unknowns)
     return "less is measured than a wrench has components: measure more, or ask the force alone";
   return {};
@@ -104,9 +108,10 @@ FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {
       return sensed;
     from_last = sensed.report.is_solved();
     double misfit = 1e300;
-    std::vector<double> off, rows;  // in standard deviations
+    Comparison with;
+    const auto& [off, rows] = with;
     if (sensed.report.is_solved()) {
-      if (body.compare(off, rows)) {
+      if (body.compare(with)) {
         misfit = 0;
         for (const double x : off) misfit += x * x;
       } else if (round == 0) {

@@ -2,12 +2,34 @@
 /// The search for a wrench that explains what was measured, whatever it acts on.
 #pragma once
 #include <array>
+#include <cmath>
+#include <initializer_list>
 #include <string_view>
 #include <vector>
 
 #include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {
+
+/// What was measured less what an equilibrium has, and rates of that by the wrench, in standard deviations.
+struct Comparison {
+  std::vector<double> off, rows;  ///< of these six each
+
+  void add(double difference, const double* by_wrench, double deviation) {
+    off.push_back(difference / deviation);
+    for (std::size_t k = 0; k < 6; ++k) rows.push_back(by_wrench[k] / deviation);
+  }
+  /// Of every tendon that was measured, what is not held. @param by_wrench six rates a tendon
+  template <class Measurement, class State>
+  void add_tendons(const Measurement& measured, const State& state, const std::vector<double>& by_wrench) {
+    for (std::size_t i = 0; i < measured.answers.size(); ++i) {
+      if (std::isnan(measured.answers[i])) continue;
+      const bool is_change = measured.held[i].held == TendonHeld::tension;
+      add(measured.answers[i] - (is_change ? state.changes[i] : state.tensions[i]), by_wrench.data() + 6 * i,
+          is_change ? measured.change_deviation : measured.tension_deviation);
+    }
+  }
+};
 
 /// What the wrench acts on.
 class LoadedBody {
@@ -19,9 +41,8 @@ class LoadedBody {
 
   /// Its equilibrium under this wrench, from the last one or anew.
   virtual Report load(const std::array<double, 6>& wrench, bool from_last) = 0;
-  /// Of the equilibrium: what was measured less what it has, and rates of that by the wrench, six a row, all
-  /// in standard deviations. False where it is a fold, which has no rates.
-  virtual bool compare(std::vector<double>& off, std::vector<double>& rows) = 0;
+  /// Of the equilibrium. False where it is a fold, which has no rates.
+  virtual bool compare(Comparison& with) = 0;
 };
 
 struct WrenchSearch {
@@ -45,9 +66,9 @@ FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body);
 
 /// A force at the tip that bends the arm by about two radians [N].
 double usual_force(const Arm& arm);
-/// What is wrong with the number of things measured, or empty.
+/// What is wrong with what is measured of tendons, and with the number of things measured; or empty.
 std::string_view measurement_misfit(std::size_t tendons, const std::vector<TendonCommand>& held,
                                     const std::vector<double>& answers, std::size_t others,
-                                    std::size_t unknowns);
+                                    std::size_t unknowns, std::initializer_list<double> deviations);
 
 }  // namespace sinew::inline v1

@@ -67,6 +67,11 @@ Report rest_near(ChainLegs<Space>& robot, const AnyPose& pose, const Arcs& arcs,
                               state);
 }
 
+TendonConstraint hold_of_input(const PseudoRigid& chain, double length) {
+  const bool is_inner = length <= chain.length;
+  return {is_inner ? 0 : 1, is_inner ? length : 2 * chain.length - length, {}};
+}
+
 template <class Space>
 HeldInputs hold_inputs(ArcTwin twin, const ChainLegs<Space>& robot, Numbers inputs,
                        const std::optional<AnyPose>& start, int max_iterations) {
@@ -78,11 +83,8 @@ HeldInputs hold_inputs(ArcTwin twin, const ChainLegs<Space>& robot, Numbers inpu
   HeldInputs held{found.ok() ? found.pose : start.value_or(home(twin.robot)), {}, {}};
   held.arcs = arcs_of(twin, held.pose, twin.work.coordinates);
   const std::size_t own = robot.has_base_motors ? 2 : 1;
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    const double rest_length = robot.legs[i].chain.length, length = inputs[own * i + own - 1];
-    const bool is_inner = length <= rest_length;
-    held.hold.push_back({is_inner ? 0 : 1, is_inner ? length : 2 * rest_length - length, {}});
-  }
+  for (std::size_t i = 0; i < robot.legs.size(); ++i)
+    held.hold.push_back(hold_of_input(robot.legs[i].chain, inputs[own * i + own - 1]));
   return held;
 }
 
@@ -109,23 +111,26 @@ std::vector<double> inputs_of(ArcTwin twin, const ChainLegs<Space>& robot, const
 }
 
 template <class Space>
-Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor> sensitivity_to_inputs(
-    ArcTwin twin, const ChainLegs<Space>& robot, const ChainState<Space>& state, ChainWork& work) {
-  Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor> rows =
-      input_sensitivity(robot, state, work);
+InputRows<Space> rows_of_inputs(ArcTwin twin, const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                ChainWork& work) {
+  InputRows<Space> found;
+  found.needed_wrench = input_wrench_jacobian(robot, state, work);
+  found.sensitivity = input_sensitivity(robot, state, work);
   std::vector<double> shorter;
   for (const auto& leg : robot.legs) shorter.push_back(0.9 * leg.chain.length);
   const std::vector<double> turned = first_links(twin, robot, state.pose, shorter);
-  Eigen::Index column = 0;
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    const int held = state.hold[i].length_of;
-    column += robot.has_base_motors ? 1 : 0;
-    if (held == 1) rows.col(column) *= -1;
-    if (held >= 0 && robot.has_base_motors)  // first links are affine in the length
-      rows.col(column) += rows.col(column - 1) * turned[i] / (shorter[i] - robot.legs[i].chain.length);
-    column += held >= 0 ? 1 : 2;
+  for (auto* rows : {&found.needed_wrench, &found.sensitivity}) {
+    Eigen::Index column = 0;
+    for (std::size_t i = 0; i < robot.legs.size() && rows->cols() > 0; ++i) {
+      const int held = state.hold[i].length_of;
+      column += robot.has_base_motors ? 1 : 0;
+      if (held == 1) rows->col(column) *= -1;
+      if (held >= 0 && robot.has_base_motors)  // first links are affine in the length
+        rows->col(column) += rows->col(column - 1) * turned[i] / (shorter[i] - robot.legs[i].chain.length);
+      column += held >= 0 ? 1 : 2;
+    }
   }
-  return rows;
+  return found;
 }
 
 #define SINEW_OF(Space)                                                                                     \
@@ -135,8 +140,8 @@ Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor> sensitivity_t
   template Report unloaded(ChainLegs<Space>&, const HeldInputs&, ChainState<Space>&, ChainWork&,            \
                            const ChainOptions&);                                                            \
   template std::vector<double> inputs_of(ArcTwin, const ChainLegs<Space>&, const ChainState<Space>&);       \
-  template Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor> sensitivity_to_inputs(        \
-      ArcTwin, const ChainLegs<Space>&, const ChainState<Space>&, ChainWork&);
+  template InputRows<Space> rows_of_inputs(ArcTwin, const ChainLegs<Space>&, const ChainState<Space>&,      \
+                                           ChainWork&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

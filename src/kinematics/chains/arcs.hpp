@@ -40,9 +40,11 @@ struct HeldInputs {
   Arcs arcs;
   std::vector<TendonConstraint> hold;
 };
-/// Tendon 1 of the arcs' lengths; where it is the outer one the inner is held, whose length is as much
-/// shorter. Of more legs than freedoms, whose lengths chains need not agree on, arcs begin where the search
-/// does.
+/// At this length of tendon 1: where that is the outer one the inner is held, whose length is as much
+/// shorter.
+TendonConstraint hold_of_input(const PseudoRigid& chain, double length);
+/// By the arcs' lengths. Of more legs than freedoms, whose lengths chains need not agree on, arcs begin where
+/// the search does.
 template <class Space>
 HeldInputs hold_inputs(ArcTwin twin, const ChainLegs<Space>& robot, Numbers inputs,
                        const std::optional<AnyPose>& start, int max_iterations);
@@ -56,11 +58,17 @@ Report unloaded(ChainLegs<Space>& robot, const HeldInputs& held, ChainState<Spac
 template <class Space>
 std::vector<double> inputs_of(ArcTwin twin, const ChainLegs<Space>& robot, const ChainState<Space>& state);
 
-/// ∂(pose)/∂(inputs) at fixed wrench, in the robot's order where lengths are held: those of tendon 1, and θ
-/// that puts a first link farther with its tendon; where tensions are, those of both tendons.
+/// What inputs do, in the robot's order where lengths are held: those of tendon 1, and θ that puts a first
+/// link farther with its tendon; where tensions are, those of both tendons.
 template <class Space>
-Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor> sensitivity_to_inputs(
-    ArcTwin twin, const ChainLegs<Space>& robot, const ChainState<Space>& state, ChainWork& work);
+struct InputRows {
+  using Rows = Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor>;
+  Rows needed_wrench;  ///< ∂(wrench needed)/∂(inputs), the platform resting
+  Rows sensitivity;    ///< ∂(pose)/∂(inputs) at fixed wrench
+};
+template <class Space>
+InputRows<Space> rows_of_inputs(ArcTwin twin, const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                ChainWork& work);
 
 /// Whether there is an equilibrium; tendons that would have to push are told of, not forbidden.
 inline bool is_solved(const Report& report) { return report.ok() || report.status == Status::slack; }

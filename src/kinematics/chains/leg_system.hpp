@@ -10,14 +10,10 @@
 #include "leg/chord.hpp"
 #include "leg/closure_curvature.hpp"
 #include "leg/strut.hpp"
+#include "solve/contraction.hpp"
 #include "solve/message.hpp"
 
 namespace sinew::inline v1 {
-
-/// The larger size; NaN stays.
-inline double worse(double a, double b) {
-  return std::isfinite(b) ? std::max(a, std::abs(b)) : std::numeric_limits<double>::quiet_NaN();
-}
 
 /// A tendon that pushes by less counts as loose [N].
 inline constexpr double slack_tolerance = 1e-9;

@@ -7,8 +7,8 @@
 
 #include "base/limits.hpp"
 #include "kinematics/chains/chain_group.hpp"
+#include "kinematics/effort_sensor.hpp"
 #include "math/linalg.hpp"
-#include "solve/continuation.hpp"
 #include "solve/message.hpp"
 
 namespace sinew::inline v1 {
@@ -21,7 +21,7 @@ struct HeldChains {
   Report report;
 };
 
-/// What a solver keeps in the work of whoever asks.
+/// What solvers keep in a caller's `ChainWork` from one question to the next.
 template <class Space>
 struct ChainMemory {
   ChainGroup<Space> group;
@@ -58,7 +58,8 @@ ChainGroup<Space>& linearised(ChainWork& work, const ChainLegs<Space>& robot,
   return group;
 }
 
-/// Who turned a joint by more since the last equilibrium [rad] would be on another branch.
+/// A joint that turned further than this since the last equilibrium [rad] may be on another branch: the step
+/// is refused.
 inline constexpr double chain_reach = 0.5;
 
 /// What a path on chains solves: an `error` of where the group is, and Newton's step that `find_step` plans
@@ -102,14 +103,8 @@ template <class Space, class Put, class Steps>
 ParameterPath follow_path(ChainMemory<Space>& memory, StopToken stop, int max_iterations, Put&& put,
                           const Steps& steps) {
   auto& group = memory.group;
-  ParameterPath end;
-  follow_parameter(end, {{1, 1e-9, stop}, 0, max_iterations}, [&](double next, double taken) {
-    group.save(memory.spare);
-    put(next);
-    if (correct(group, end.iterations, steps)) return ParameterStep{ParameterStep::reached, 2 * taken};
-    group.restore(memory.spare);
-    return ParameterStep{ParameterStep::failed, taken / 4};
-  });
+  const ParameterPath end = follow_parts(group, memory.spare, {{1, 1e-9, stop}, 0, max_iterations}, put,
+                                         [&](int& iterations) { return correct(group, iterations, steps); });
   if (!end.arrived) {
     group.evaluate();
     group.linearise();

@@ -3,114 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/chain_analysis.hpp"
-#include "kinematics/chain_equilibria.hpp"
+#include "kinematics/chain_curve.hpp"
 #include "kinematics/chain_sensing.hpp"
-#include "kinematics/chains/arcs.hpp"
-#include "kinematics/chains/path.hpp"
-#include "robot/arguments.hpp"
-#include "sinew/kinematics/forward.hpp"
+#include "kinematics/chains/asked.hpp"
+#include "kinematics/chains/solutions.hpp"
 
 namespace sinew::inline v1 {
 namespace {
-
-/// The equilibrium that a workspace holds, if it does.
-template <class Space>
-std::shared_ptr<HeldChains<Space>>& held_in(Workspace& work) {
-  return memory_in<Space>(work.chains).held;
-}
-
-/// Which numbers of a twist in space a robot of this space has.
-template <class Space>
-constexpr std::array<Eigen::Index, static_cast<std::size_t>(Space::dof)> axes_of() {
-  if constexpr (Space::dimension == 2)
-    return {0, 1, 5};
-  else
-    return {0, 1, 2, 3, 4, 5};
-}
-
-SpatialPose in_space(const SpatialPose& pose) { return spatial_pose(SE3<double>::from(pose)); }
-SpatialPose in_space(const PlanarPose& pose) {
-  const double half = wrap_angle(pose.phi) / 2;
-  return {Vec3<double>(pose.x, pose.y, 0), {std::cos(half), 0, 0, std::sin(half)}};
-}
-SpatialPose in_space(const AnyPose& pose) {
-  return std::visit([](const auto& own) { return in_space(own); }, pose);
-}
-
-template <class Space>
-Vec<double, Space::dof> own_wrench(const SpatialWrench& wrench) {
-  Vec<double, Space::dof> own;
-  for (std::size_t k = 0; k < axes_of<Space>().size(); ++k)
-    own[static_cast<Eigen::Index>(k)] = wrench[axes_of<Space>()[k]];
-  return own;
-}
-
-Report refusal(Status status, std::string_view why) {
-  Report report;
-  report.status = status;
-  report.message.append(why);
-  return report;
-}
-
-/// What no robot of this space, or no chain, can be asked.
-template <class Space>
-Report check_wrench(const SpatialWrench& wrench) {
-  if (!wrench.allFinite()) return refusal(Status::bad_input, "the wrench has numbers that are not finite");
-  if constexpr (Space::dimension == 2)
-    if (wrench[2] != 0 || wrench[3] != 0 || wrench[4] != 0)
-      return refusal(Status::bad_input,
-                     "the robot is in the plane z = 0: a wrench on it is (fx, fy, 0, 0, 0, m)");
-  return {};
-}
-
-/// The pose in the robot's own space; of one in the plane it has to lie there.
-template <class Space>
-Report read_own(const SpatialPose& pose, std::string_view name, AnyPose& own) {
-  const auto& q = pose.quaternion;
-  const bool finite =
-      pose.position.allFinite() && std::ranges::all_of(q, [](double x) { return std::isfinite(x); });
-  if (!finite || std::ranges::all_of(q, [](double x) { return x == 0; }))
-    return refusal(Status::bad_input, "a pose has finite numbers, and a quaternion other than 0");
-  if constexpr (Space::dimension == 3) {
-    own = pose;
-  } else {
-    if (pose.position[2] != 0 || q[1] != 0 || q[2] != 0) {
-      Report report = refusal(Status::bad_input, "the robot is in the plane z = 0, ");
-      report.message.append(name);
-      report.message.append(" is not: z and the quaternion's x and y have to be 0");
-      return report;
-    }
-    own = PlanarPose{pose.position[0], pose.position[1], wrap_angle(2 * std::atan2(q[3], q[0]))};
-  }
-  return {};
-}
-
-template <class Space>
-Report check_options(const EquilibriumOptions& options, std::optional<AnyPose>& start) {
-  if (options.gravity)
-    return refusal(Status::unsupported, "chains have no weight; leave gravity out, or give its wrench");
-  if (options.max_iterations && *options.max_iterations < 0)
-    return refusal(Status::bad_input, "max_iterations is 0 or more");
-  if (const Report report = check_wrench<Space>(options.wrench); !report.ok()) return report;
-  if (!options.start) return {};
-  AnyPose own;
-  const Report report = read_own<Space>(*options.start, "start", own);
-  start = own;
-  return report;
-}
-
-ChainOptions chain_options(const EquilibriumOptions& options) {
-  ChainOptions how;
-  if (options.max_iterations) how.max_iterations = *options.max_iterations;
-  return how;
-}
-
-/// The solvers' memory, which is asked to stop when the workspace is.
-ChainWork& solver_memory(Workspace& work) {
-  work.chains.stop = work.stop;
-  return work.chains;
-}
 
 Equilibrium refused_question(const Report& report) {
   Equilibrium answer;
@@ -123,7 +22,7 @@ template <class Space>
 Equilibrium keep_found(const Robot& robot, std::shared_ptr<HeldChains<Space>> found, bool checks_stability,
                        std::optional<Numbers> inputs, Workspace& work) {
   if (checks_stability && is_solved(found->report))
-    judge(found->robot, found->state, solver_memory(work), found->report);
+    note_stability(found->robot, found->state, solver_memory(work), found->report);
   Equilibrium answer;
   answer.report = found->report;
   answer.pose = in_space(found->state.pose);
@@ -202,30 +101,168 @@ LoadPath load_until(const SpatialWrench& direction, double limit, Workspace& wor
 }
 
 template <class Space>
+FoundEquilibrium found_of(const FoundChains<Space>& one, std::vector<double> inputs) {
+  return {.pose = in_space(one.state.pose),
+          .inputs = std::move(inputs),
+          .rods = {},
+          .residual = one.report.residual,
+          .potential = one.potential,
+          .unstable_directions = one.stability.unstable_directions};
+}
+
+template <class Space>
 std::vector<FoundEquilibrium> find_all(const Robot& robot, Numbers inputs, const EquilibriumOptions& options,
                                        Workspace& work) {
   std::vector<FoundEquilibrium> all;
   std::optional<AnyPose> start;
   if (!check_options<Space>(options, start).ok()) return all;
-  using Pose = typename Space::Pose;
   const ArcTwin twin(robot, work);
   const HeldInputs held =
       hold_inputs(twin, chains_of<Space>(robot), inputs, {}, options.max_iterations.value_or(100));
   if (!held.arcs.report.ok()) return all;
-  std::vector<ChainStart<Space>> starts{{std::get<Pose>(held.pose), held.arcs.curvature}};
-  const AssemblyModes modes = assembly_modes(twin.robot, inputs, twin.work);
-  for (const AnyPose& pose : modes.poses) starts.push_back({std::get<Pose>(pose), held.arcs.curvature});
-  const std::span<const ChainStart<Space>> from(starts);
   for (const auto& one :
-       chain_equilibria(chains_of<Space>(robot), from, held.hold, own_wrench<Space>(options.wrench),
-                        solver_memory(work), chain_options(options)))
-    all.push_back({.pose = in_space(one.state.pose),
-                   .inputs = {inputs.begin(), inputs.end()},
-                   .rods = {},
-                   .residual = one.report.residual,
-                   .potential = one.potential,
-                   .unstable_directions = one.stability.unstable_directions});
+       equilibria_of_inputs(twin, chains_of<Space>(robot), held, inputs, own_wrench<Space>(options.wrench),
+                            solver_memory(work), chain_options(options)))
+    all.push_back(found_of(one, {inputs.begin(), inputs.end()}));
   return all;
+}
+
+template <class Space>
+std::vector<FoundEquilibrium> find_all_at(const Robot& robot, const SpatialPose& wanted,
+                                          const EquilibriumOptions& options, Workspace& work) {
+  std::vector<FoundEquilibrium> all;
+  std::optional<AnyPose> start;
+  AnyPose pose;
+  if (!check_options<Space>(options, start).ok() || !read_own<Space>(wanted, "the pose", pose).ok())
+    return all;
+  for (const ChainsAtPose<Space>& one :
+       equilibria_at_pose(ArcTwin(robot, work), chains_of<Space>(robot), pose, {},
+                          own_wrench<Space>(options.wrench), solver_memory(work), chain_options(options))
+           .found)
+    all.push_back(found_of<Space>(one, one.inputs));
+  return all;
+}
+
+/// Into rows of twists and wrenches in space, row by row.
+template <class Space>
+void put_rows(const Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor>& own,
+              std::vector<double>& rows) {
+  const auto columns = static_cast<std::size_t>(own.cols());
+  rows.assign(6 * columns, 0.0);
+  if (columns == 0) return;
+  for (std::size_t r = 0; r < axes_of<Space>().size(); ++r)
+    std::copy_n(own.row(static_cast<Eigen::Index>(r)).data(), columns,
+                &rows[static_cast<std::size_t>(axes_of<Space>()[r]) * columns]);
+}
+
+template <class Space>
+ChainResult chain_result(const ChainLegs<Space>& robot, const ChainState<Space>& state, std::size_t i) {
+  const ChainLeg<Space>& leg = robot.legs[i];
+  const ChainLegState& own = state.legs[i];
+  const auto platform = Space::frame(state.pose);
+  ChainResult result;
+  const auto angles = own.of(leg.chain);
+  result.angles.assign(angles.begin(), angles.end());
+  result.chord_force = own.force;
+  result.tension = own.tension;
+  result.tendon_length = own.tendon_length;
+  const auto wrench = tip_wrench(leg, angles, platform);
+  for (std::size_t k = 0; k < axes_of<Space>().size(); ++k)
+    result.tip_wrench[axes_of<Space>()[k]] = wrench[static_cast<Eigen::Index>(k)];
+  if constexpr (Space::dimension == 2) {
+    if (robot.has_base_motors) {
+      result.base_angle = wrap_angle(leg.base.angle() + std::numbers::pi / 2);
+      result.motor_torque = motor_torque(leg, own, platform);
+    }
+  }
+  return result;
+}
+
+template <class Space>
+RodAnalysis analyse(const Robot& robot, Workspace& work) {
+  const HeldChains<Space>* held = held_in<Space>(work).get();
+  if (!held) return {};
+  const ChainLegs<Space>& chains = held->robot;
+  const ChainState<Space>& state = held->state;
+  ChainWork& memory = solver_memory(work);
+  RodAnalysis analysis;
+  analysis.is_in_plane = Space::dimension == 2;
+  const ChainStability<Space> stability = check_stability(chains, state, memory);
+  analysis.smallest_eigenvalue = stability.smallest_eigenvalue;
+  analysis.unstable_directions = stability.unstable_directions;
+  for (const auto& twist : stability.unstable) {
+    auto& whole = analysis.unstable.emplace_back();
+    whole.fill(0);
+    for (std::size_t k = 0; k < axes_of<Space>().size(); ++k)
+      whole[static_cast<std::size_t>(axes_of<Space>()[k])] = twist[static_cast<Eigen::Index>(k)];
+  }
+  const ChainMargins known = margins(chains, state, memory);
+  analysis.smallest_pivot = known.fold;
+  analysis.largest_strain = known.strain;
+  analysis.potential = potential(chains, state);
+  const InputRows<Space> rows = rows_of_inputs(ArcTwin(robot, work), chains, state, memory);
+  put_rows<Space>(rows.sensitivity, analysis.sensitivity);
+  put_rows<Space>(-rows.needed_wrench, analysis.feed);
+  const ChainGroup<Space>& group = linearised(memory, chains, state);
+  analysis.energy = group.energy();
+  constexpr auto axes = axes_of<Space>();
+  for (std::size_t r = 0; r < axes.size(); ++r)
+    for (std::size_t c = 0; c < axes.size(); ++c)
+      analysis.stiffness[static_cast<std::size_t>(6 * axes[r] + axes[c])] =
+          group.stiffness()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+  for (std::size_t i = 0; i < chains.legs.size(); ++i) {
+    analysis.unstable_rods.push_back(group.unstable_with_tip_held(static_cast<int>(i)));
+    analysis.chains.push_back(chain_result(chains, state, i));
+  }
+  return analysis;
+}
+
+/// Lengths of the tendons that are held where the curve begins, at these inputs. None where other tendons
+/// would be held there, or motors turn bases: along a curve they stay.
+template <class Space>
+std::vector<TendonConstraint> hold_at(const HeldChains<Space>& held, Numbers inputs) {
+  const auto& legs = held.robot.legs;
+  if (held.robot.has_base_motors || inputs.size() != legs.size()) return {};
+  std::vector<TendonConstraint> hold;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    hold.push_back(hold_of_input(legs[i].chain, inputs[i]));
+    if (hold[i].length_of != held.state.hold[i].length_of) return {};
+  }
+  return hold;
+}
+
+template <class Space>
+std::vector<EquilibriumCurve> curves_of(const Robot& robot, const CurveOptions& how, Workspace& work) {
+  const std::shared_ptr<HeldChains<Space>> held = held_in<Space>(work);
+  if (!held || how.pose || !check_wrench<Space>(how.added_wrench).ok()) return {};
+  ChainCurveOptions<Space> own{.hold = {},
+                               .added_wrench = own_wrench<Space>(how.added_wrench),
+                               .lowest = how.lowest,
+                               .highest = how.highest,
+                               .max_points = how.max_points,
+                               .is_backward = how.is_backward,
+                               .follows_branches = how.follows_branches};
+  if (!how.inputs.empty()) {
+    own.hold = hold_at(*held, how.inputs);
+    if (own.hold.empty()) return {};
+  }
+  std::vector<EquilibriumCurve> curves;
+  for (const ChainCurve<Space>& found : chain_curves(held->robot, held->state, own, solver_memory(work))) {
+    EquilibriumCurve& curve = curves.emplace_back();
+    curve.end = found.end;
+    curve.from_curve = found.from_curve;
+    curve.from_point = found.from_point;
+    for (const ChainCurvePoint<Space>& point : found.points)
+      curve.points.push_back({.parameter = point.parameter,
+                              .event = point.event,
+                              .pose = in_space(point.state.pose),
+                              .inputs = inputs_of(ArcTwin(robot, work), held->robot, point.state),
+                              .unstable_directions = point.unstable_directions,
+                              .residual = point.residual,
+                              .potential = point.potential});
+  }
+  if (!curves.empty()) held_in<Space>(work).reset();
+  return curves;
 }
 
 template <class Space>
@@ -263,11 +300,9 @@ SensedWrench sense_of(const Robot& robot, Numbers inputs, Numbers tensions, Numb
     held_in<Space>(work).reset();
     return sensed;
   }
-  if (options.check_stability) judge(held->robot, held->state, solver_memory(work), sensed.report);
+  if (options.check_stability) note_stability(held->robot, held->state, solver_memory(work), sensed.report);
   constexpr auto axes = axes_of<Space>();
-  Vec<double, Space::dof> spread(deviations.data());
-  const auto scaled = (found.sensitivity * spread.asDiagonal()).eval();
-  const auto covariance = (scaled * scaled.transpose()).eval();
+  const auto covariance = covariance_of<Space::dof>(found.sensitivity, deviations);
   sensed.wrench.setZero();
   for (std::size_t r = 0; r < count; ++r) {
     const auto row = static_cast<Eigen::Index>(r);
@@ -326,6 +361,25 @@ std::vector<FoundEquilibrium> equilibria_of_chains(const Robot& robot, Numbers i
   if (!check_workspace(robot, work).ok()) return {};
   return robot.planar_chains() ? find_all<Planar>(robot, inputs, options, work)
                                : find_all<Spatial>(robot, inputs, options, work);
+}
+
+std::vector<FoundEquilibrium> inverse_equilibria_of_chains(const Robot& robot, const SpatialPose& wanted,
+                                                           const EquilibriumOptions& options,
+                                                           Workspace& work) {
+  if (!check_workspace(robot, work).ok()) return {};
+  return robot.planar_chains() ? find_all_at<Planar>(robot, wanted, options, work)
+                               : find_all_at<Spatial>(robot, wanted, options, work);
+}
+
+RodAnalysis analyse_equilibrium_of_chains(const Robot& robot, Workspace& work) {
+  if (!check_workspace(robot, work).ok()) return {};
+  return robot.planar_chains() ? analyse<Planar>(robot, work) : analyse<Spatial>(robot, work);
+}
+
+std::vector<EquilibriumCurve> equilibrium_curves_of_chains(const Robot& robot, const CurveOptions& how,
+                                                           Workspace& work) {
+  if (!check_workspace(robot, work).ok()) return {};
+  return robot.planar_chains() ? curves_of<Planar>(robot, how, work) : curves_of<Spatial>(robot, how, work);
 }
 
 SensedWrench sense_wrench_of_chains(const Robot& robot, Numbers inputs, Numbers tensions, Numbers deviations,

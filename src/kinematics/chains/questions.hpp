@@ -1,9 +1,9 @@
 /// @file questions.hpp
-/// What kinematics/equilibrium.hpp and force_sensing.hpp ask, of a robot by the model prb. The equilibrium
-/// that was found stays in the workspace. A robot in the plane is in the plane z = 0 of space, with wrenches
-/// in it.
+/// What kinematics/equilibrium.hpp, equilibrium_curve.hpp and force_sensing.hpp ask, of a robot by the model
+/// prb. The equilibrium that was found stays in the workspace. A robot in the plane is in the plane z = 0 of
+/// space, with wrenches in it.
 #pragma once
-#include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/kinematics/equilibrium_curve.hpp"
 #include "sinew/kinematics/force_sensing.hpp"
 
 namespace sinew::inline v1 {
@@ -19,6 +19,12 @@ LoadPath follow_load_of_chains(const Robot& robot, const SpatialWrench& directio
                                Workspace& work);
 std::vector<FoundEquilibrium> equilibria_of_chains(const Robot& robot, Numbers inputs,
                                                    const EquilibriumOptions& options, Workspace& work);
+std::vector<FoundEquilibrium> inverse_equilibria_of_chains(const Robot& robot, const SpatialPose& wanted,
+                                                           const EquilibriumOptions& options,
+                                                           Workspace& work);
+RodAnalysis analyse_equilibrium_of_chains(const Robot& robot, Workspace& work);
+std::vector<EquilibriumCurve> equilibrium_curves_of_chains(const Robot& robot, const CurveOptions& how,
+                                                           Workspace& work);
 SensedWrench sense_wrench_of_chains(const Robot& robot, Numbers inputs, Numbers tensions, Numbers deviations,
                                     const EquilibriumOptions& options, Workspace& work);
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "kinematics/chains/path.hpp"
-#include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -34,56 +33,14 @@ Report check_measured(const ChainLegs<Space>& robot, std::span<const MeasuredTen
   return check_hold(robot, std::span<const TendonConstraint>(state.hold));
 }
 
-/// The platform's pose by tensions of lengths that are held.
+/// Errors of tensions count by Σ EI/ℓ².
 template <class Space>
-class Sensor {
- public:
-  static constexpr int dof = Space::dof;
-  using Rows = Eigen::Matrix<double, dof, dof, Eigen::RowMajor>;
-
-  Sensor(ChainGroup<Space>& group, std::span<const MeasuredTension> wanted) : group_(group), wanted_(wanted) {
-    for (int k = 0; k < group.limbs(); ++k) unit_ += group.stiffness(k) / (group.length(k) * group.length(k));
-  }
-
-  /// Of the legs' own equations, and of tensions over Σ EI/ℓ².
-  double error() const {
-    double error = group_.limb_error();
-    for (const MeasuredTension& one : wanted_)
-      error = worse(error, (group_.effort(one.leg) - one.tension) / unit_);
-    return error;
-  }
-  /// ∂tensions/∂pose, after `linearise`.
-  Rows rows() const {
-    Rows rows;
-    for (int k = 0; k < dof; ++k) rows.row(k) = group_.effort_jacobian(leg(k)).transpose();
-    return rows;
-  }
-  /// Newton's step. Infinite where there is none.
-  double plan() {
-    const Rows matrix = rows();
-    Vec<double, dof> wanted, twist;
-    for (int k = 0; k < dof; ++k)
-      wanted[k] = wanted_[static_cast<std::size_t>(k)].tension - group_.closing_effort(leg(k));
-    if (!solve(MatrixView(matrix.data(), dof, dof), MatrixView(wanted.data(), dof, 1),
-               std::span(twist.data(), static_cast<std::size_t>(dof))))
-      return std::numeric_limits<double>::infinity();
-    return group_.plan(twist);
-  }
-
- private:
-  int leg(int k) const { return wanted_[static_cast<std::size_t>(k)].leg; }
-
-  ChainGroup<Space>& group_;
-  std::span<const MeasuredTension> wanted_;
-  double unit_ = 0;
-};
-
-void say_not_reached(const ParameterPath& end, const ChainWork& work, Report& report) {
-  report.status = end.ran_out ? Status::iteration_limit : Status::stalled;
-  if (!note_stop(work.stop, report))
-    report.message.append(end.ran_out ? "the iterations ran out before these tensions were met"
-                                      : "no wrench near the unloaded platform makes the tendons so tense; "
-                                        "check the tensions and lengths");
+auto efforts_of(const ChainGroup<Space>& group, std::span<const MeasuredTension> measured) {
+  typename EffortSensor<Space>::Measured efforts;
+  double unit = 0;
+  for (int k = 0; k < group.limbs(); ++k) unit += group.stiffness(k) / (group.length(k) * group.length(k));
+  for (std::size_t k = 0; k < efforts.size(); ++k) efforts[k] = {measured[k].leg, measured[k].tension, unit};
+  return efforts;
 }
 
 }  // namespace
@@ -95,45 +52,30 @@ SensedLoad<Space> sense_wrench(const ChainLegs<Space>& robot, std::span<const Me
                            Mat<double, Space::dof, Space::dof>::Zero()};
   Report& report = sensed.report;
   if (!report.ok()) return sensed;
-  std::vector<MeasuredTension> first(measured.begin(), measured.end()), now = first;
-  for (MeasuredTension& one : first) {
-    const auto leg = static_cast<std::size_t>(one.leg);
-    one.tension = state.legs[leg].tension[static_cast<std::size_t>(state.hold[leg].length_of)];
-  }
   state.wrench.setZero();
   auto& memory = memory_of(work, robot, state, options);
   auto& group = memory.group;
-  Sensor<Space> sensor(group, now);
-  const auto put = [&](double part) {
-    for (std::size_t k = 0; k < now.size(); ++k)
-      now[k].tension = std::lerp(first[k].tension, measured[k].tension, part);
-  };
-  const ParameterPath end =
-      follow_path(memory, work.stop, options.max_iterations, put,
-                  ChainSteps{[&] { return sensor.error(); }, [&] { return sensor.plan(); }});
+  EffortSensor<Space> sensor(group, efforts_of(group, measured));
+  const ChainSteps steps{[&] { return sensor.error(); },
+                         [&] {
+                           const auto twist = sensor.step();
+                           return twist ? group.plan(*twist) : std::numeric_limits<double>::infinity();
+                         }};
+  report = sensor.find(memory.spare, {{1, 1e-9, work.stop}, 0, options.max_iterations}, 0, Status::stalled,
+                       [&](int& iterations, double&) { return correct(group, iterations, steps); });
   report.residual = sensor.error() * group.radius();
-  report.iterations = end.iterations;
   group.measure();
   state = group.state();
   state.wrench = -group.wrench_residual();
-  if (end.progress < 1) {
-    say_not_reached(end, work, report);
-  } else if (!(regularity<Space>(MatrixView(sensor.rows().data(), Space::dof, Space::dof), 1,
-                                 group.radius()) > 1e-10)) {
-    report.status = Status::singular;
-    report.message.append("here the tensions do not tell the wrench: some motion changes none of them");
-  } else {
-    name_slack(state, report);
-    // K R⁻¹, by Rᵀ on its transpose
-    constexpr int dof = Space::dof;
-    const typename Sensor<Space>::Rows by_pose = sensor.rows().transpose(),
-                                       turned = group.stiffness().transpose();
-    typename Sensor<Space>::Rows found;
-    if (!solve(MatrixView(by_pose.data(), dof, dof), MatrixView(turned.data(), dof, dof),
-               std::span(found.data(), static_cast<std::size_t>(dof * dof))))
-      found.setConstant(std::numeric_limits<double>::quiet_NaN());
-    sensed.sensitivity = found.transpose();
+  if (!report.ok()) return sensed;
+  const auto rows = sensor.rows();
+  if (!(regularity<Space>(MatrixView(rows.data(), Space::dof, Space::dof), 1, 1) > 1e-10)) {
+    EffortSensor<Space>::say_undetermined(report);
+    return sensed;
   }
+  name_slack(state, report);
+  sensed.sensitivity.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (const auto found = sensor.sensitivity()) sensed.sensitivity = *found;
   return sensed;
 }
 

@@ -26,37 +26,45 @@ Vec<double, 3> motor_wrench_jacobian(const ChainLeg<Planar>& leg, const SE2<doub
 }  // namespace
 
 template <class Space>
-Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainLegs<Space>& robot,
-                                                                    const ChainState<Space>& state,
-                                                                    ChainWork& work) {
-  using Motion = Vec<double, Space::dof>;
+ByInputs<Space> input_wrench_jacobian(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                      ChainWork& work) {
   if (!fits(robot, state)) return {};
   const ChainGroup<Space>& group = linearised(work, robot, state);
-  std::vector<Motion> columns;
-  const auto add = [&](const Motion& needed) {
-    const Motion wanted = -needed;
-    group.factors().solve(wanted.data(), columns.emplace_back().data());
-  };
+  std::vector<Vec<double, Space::dof>> columns;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     if constexpr (Space::dimension == 2)
-      if (robot.has_base_motors) add(motor_wrench_jacobian(robot.legs[i], group.platform(), group.system(i)));
+      if (robot.has_base_motors)
+        columns.push_back(motor_wrench_jacobian(robot.legs[i], group.platform(), group.system(i)));
     if (state.hold[i].length_of >= 0)
-      add(group.hold_wrench_jacobian(i, {.length = 1}));
+      columns.push_back(group.hold_wrench_jacobian(i, {.length = 1}));
     else
       for (const std::array<double, 2>& tension : {std::array{1.0, 0.0}, std::array{0.0, 1.0}})
-        add(group.hold_wrench_jacobian(i, {.tension = tension}));
+        columns.push_back(group.hold_wrench_jacobian(i, {.tension = tension}));
   }
-  Eigen::Matrix<double, Space::dof, Eigen::Dynamic> all(Space::dof,
-                                                        static_cast<Eigen::Index>(columns.size()));
+  ByInputs<Space> all(Space::dof, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
   return all;
 }
 
-template SINEW_API Eigen::Matrix<double, 3, Eigen::Dynamic> input_sensitivity(const ChainLegs<Planar>&,
-                                                                              const ChainState<Planar>&,
-                                                                              ChainWork&);
-template SINEW_API Eigen::Matrix<double, 6, Eigen::Dynamic> input_sensitivity(const ChainLegs<Spatial>&,
-                                                                              const ChainState<Spatial>&,
-                                                                              ChainWork&);
+template <class Space>
+ByInputs<Space> input_sensitivity(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                  ChainWork& work) {
+  if (!fits(robot, state)) return {};
+  const ByInputs<Space> needed = -input_wrench_jacobian(robot, state, work);
+  const ChainGroup<Space>& group = memory_in<Space>(work).group;  // linearised there
+  ByInputs<Space> all(Space::dof, needed.cols());
+  for (Eigen::Index k = 0; k < needed.cols(); ++k)
+    group.factors().solve(needed.col(k).data(), all.col(k).data());
+  return all;
+}
+
+#define SINEW_OF(Space)                                                                                   \
+  template SINEW_API ByInputs<Space> input_wrench_jacobian(const ChainLegs<Space>&,                       \
+                                                           const ChainState<Space>&, ChainWork&);         \
+  template SINEW_API ByInputs<Space> input_sensitivity(const ChainLegs<Space>&, const ChainState<Space>&, \
+                                                       ChainWork&);
+SINEW_OF(Planar)
+SINEW_OF(Spatial)
+#undef SINEW_OF
 
 }  // namespace sinew::inline v1

@@ -24,7 +24,7 @@ struct RodPathOptions {
   double tolerance = rod_tolerance;
   int max_iterations = 4000;  ///< Newton steps of the whole path
   StopToken stop = {};
-  bool may_stray = false;  ///< onto other curves: of whoever looks for any equilibrium at the target
+  bool may_stray = false;  ///< onto other curves: where any equilibrium at the target will do
 };
 
 /// How a path ended.

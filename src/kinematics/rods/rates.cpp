@@ -62,15 +62,46 @@ struct RateEquations {
   }
 };
 
+/// Rows of x, y and the turn about z; the others are 0.
+constexpr std::array<std::size_t, 3> plane_rows{0, 1, 5};
+
+Report rates_in_plane(const RodAnalysis& analysis, Numbers twist, std::span<double> rates) {
+  const std::size_t inputs = rates.size();
+  const auto part = [&](std::size_t row) {
+    return twist.size() == 6 ? twist[row] : twist[std::min<std::size_t>(row, 2)];
+  };
+  if (twist.size() == 6 && (twist[2] != 0 || twist[3] != 0 || twist[4] != 0))
+    return refused_rates(Status::bad_input,
+                         "the robot is in the plane z = 0: a twist of it is (vx, vy, 0, 0, 0, w)");
+  RateEquations equations;
+  equations.forward = 2;
+  equations.turning = 1;
+  equations.inputs = static_cast<int>(inputs);
+  for (std::size_t i = 0; i < plane_rows.size(); ++i) {
+    const std::size_t row = plane_rows[i];
+    std::copy_n(&analysis.feed[row * inputs], inputs, equations.row(static_cast<int>(i)));
+    for (const std::size_t column : plane_rows)
+      equations.b[i] += analysis.stiffness[6 * row + column] * part(column);
+  }
+  if (equations.solve_for(rates)) return {};
+  return refused_rates(Status::singular,
+                       inputs < plane_rows.size()
+                           ? "the platform cannot move so: it has fewer inputs than the plane has freedoms"
+                           : "type I: no rates of the inputs move the platform so; what they do depends on "
+                             "each other");
+}
+
 }  // namespace
 
 Report rod_rates(const RodAnalysis& analysis, Numbers twist, std::span<double> rates) {
   const std::size_t inputs = analysis.sensitivity.size() / 6;
   const bool is_whole = twist.size() == 6;
   if (inputs == 0 || inputs > at(max_rows) || rates.size() != inputs ||
-      !(is_whole || (twist.size() == 3 && inputs == 3)) || !are_finite(twist))
+      !(is_whole || (twist.size() == 3 && (inputs == 3 || analysis.is_in_plane))) || !are_finite(twist))
     return refused_rates(Status::bad_input,
-                         "a twist has six numbers, or of a robot with three inputs three: vz, wx, wy");
+                         "a twist has six numbers; or three, of a robot in the plane vx, vy, w, of another "
+                         "with three inputs vz, wx, wy");
+  if (analysis.is_in_plane) return rates_in_plane(analysis, twist, rates);
   RateEquations equations;
   equations.inputs = static_cast<int>(inputs);
   // U may be infinite where J and K are not; but these do not have the motions that other legs drive

@@ -129,7 +129,7 @@ void put_wanted(Context& context, const ChainLegs<Space>& robot, const ChainStat
     put_number(answer["margins"], "strain", found.strain);
   }
   if (wanted.has(Want::sensitivity))
-    if (const auto rows = sensitivity_to_inputs(twin_of(context), robot, state, work); rows.allFinite())
+    if (const auto rows = rows_of_inputs(twin_of(context), robot, state, work).sensitivity; rows.allFinite())
       answer["sensitivity"] = Value(MatrixView(rows.data(), Space::dof, rows.cols()));
 }
 
@@ -141,7 +141,7 @@ void put_equilibrium(Context& context, const ChainLegs<Space>& robot, const Chai
   Value& answer = context.answer;
   const bool is_found = is_solved(report);
   ChainStability<Space> stability{};
-  if (is_found) stability = judge(robot, state, work, report);
+  if (is_found) stability = note_stability(robot, state, work, report);
   context.report(report);
   answer["iterations"] = report.iterations;
   put_number(answer, "residual", report.residual);

@@ -4,6 +4,7 @@
 
 #include "io/reader.hpp"
 #include "kinematics/chain_sensing.hpp"
+#include "kinematics/effort_sensor.hpp"
 
 namespace sinew::inline v1::chains {
 namespace {
@@ -87,9 +88,8 @@ void answer_sensing(Context& context, ChainLegs<Space>& robot) {
   if (!is_solved(sensed.report)) return;
   put_matrix<Space>(context.answer, "wrench_sensitivity", sensed.sensitivity);
   if (asked.deviations.empty()) return;
-  const Vec<double, Space::dof> deviations(asked.deviations.data());
-  const auto scaled = (sensed.sensitivity * deviations.asDiagonal()).eval();
-  put_matrix<Space>(context.answer, "covariance", scaled * scaled.transpose());
+  put_matrix<Space>(context.answer, "covariance",
+                    covariance_of<Space::dof>(sensed.sensitivity, asked.deviations));
 }
 
 template void answer_sensing(Context&, ChainLegs<Planar>&);

@@ -68,7 +68,7 @@ void answer_shape_of(Context& context, ChainLegs<Space>& robot) {
     report = rest_under(context, robot, asked, state);
   }
   const bool is_found = is_solved(report);
-  if (is_found && !asked.joints.are_given()) judge(robot, state, work_of(context), report);
+  if (is_found && !asked.joints.are_given()) note_stability(robot, state, work_of(context), report);
   context.report(report);
   context.remember({});
   if (!is_found) return;

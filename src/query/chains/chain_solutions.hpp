@@ -12,7 +12,7 @@ void put_all_equilibria(Context& context, const ChainLegs<Space>& robot, const H
 
 /// Every working mode of the arcs at a pose, as chains that hold it.
 template <class Space>
-void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& pose, const Branch& branch,
-                      const Load<Space>& load);
+void put_all_inverses(Context& context, const ChainLegs<Space>& robot, const AnyPose& pose,
+                      const Branch& branch, const Load<Space>& load);
 
 }  // namespace sinew::inline v1::chains
