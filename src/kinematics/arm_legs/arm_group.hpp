@@ -128,21 +128,32 @@ class ArmGroup final : public LimbGroup<Spatial> {
     strain::NodeLoad tip;                         ///< its weight
     Vec<double, 6> off = Vec<double, 6>::Zero();  ///< closure's error
     int taut = 0, closed = 3;                     ///< unknown forces: of tendons, of the closure
-    Matrix B, HB;                                 ///< their rows; H⁻¹Bᵀ
-    Matrix L, HL;                                 ///< of held tensions
-    Vector y0, r;                                 ///< −H⁻¹ gradient; what is missing with it
-    Matrix D, D_inverse, X;                       ///< their compliance; rows by the platform's twist
+    /// Which of force and moment the closure's unknowns are: 0 to 2 and 3 to 5.
+    std::array<int, 6> components{0, 1, 2, 3, 4, 5};
+    Matrix B, HB;            ///< rows of the unknowns, those of joints that turn freely last; H⁻¹Bᵀ
+    Matrix L, HL;            ///< of held tensions
+    Vector y0, r;            ///< −H⁻¹ gradient; what is missing with it
+    Matrix D, D_inverse, X;  ///< their compliance; rows by the platform's twist
     int negative = 0;
     Vector du;
 
-    int unknowns() const { return taut + closed; }
+    int forces() const { return taut + closed; }
+    /// A joint that turns freely has one more: what takes its coordinate's stiffness back.
+    int unknowns() const { return forces() + static_cast<int>(pivots().size()); }
+    std::span<const int> pivots() const { return rod(*this).model().pivots; }
     explicit Leg(const ArmLeg& leg) : own(&leg), work(leg.arm) {}
   };
   static strain::LoadedRod& rod(const Leg& leg) { return leg.work.impl().levels.front()->rod; }
   Frame mount_of(const Leg& leg) const;
   Vec3<double> moment_of(const Leg& leg) const;  ///< base axes
   Wrench needs(const Leg& leg) const;
+  void stand(Leg& leg, const ArmBasis& basis);
+  double way_to_platform(const Leg& leg) const;
   void measure_closure(Leg& leg);
+  void keep_in_plane(Wrench& wrench) const;
+  /// Of a robot in the plane: what moves it out is as stiff as `units` say, and coupled to nothing.
+  template <class AnySquare>
+  void hold_in_plane(AnySquare& by_twist, const std::array<double, 2>& units) const;
   void evaluate(Leg& leg);
   bool factor(Leg& leg);
   void advance(Leg& leg, const Frame& after, Numbers by_input);

@@ -205,6 +205,11 @@ Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands
   if (!std::ranges::all_of(load.wrench, finite) ||
       (load.gravity && !std::ranges::all_of(*load.gravity, finite)))
     return bad("a load is not finite");
+  if (robot.is_planar) {
+    const auto& gravity = load.gravity.value_or(robot.gravity);
+    if (load.wrench[2] != 0 || load.wrench[3] != 0 || load.wrench[4] != 0 || gravity[2] != 0)
+      return bad("a load acts out of the plane, in which alone the robot moves: leave that part of it out");
+  }
   if (options.balance != ArmBalance::energy)
     return {Status::unsupported, 0, 0,
             FixedText<240>("legs balance by energy alone in this version: leave balance out")};
@@ -226,6 +231,12 @@ void write_legs_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState&
     std::copy(wrench.begin(), wrench.end(), state.tip_loads[at(k)].begin());
   }
   state.energy = group.potential();
+}
+
+bool leaves_plane(const ArmLegs& robot, const SE3<double>& pose) {
+  constexpr double rounding = 1e-12;
+  return robot.is_planar && (std::abs(pose.p[2]) > rounding * legs_size(robot) ||
+                             std::abs(pose.R.v[0]) > rounding || std::abs(pose.R.v[1]) > rounding);
 }
 
 double legs_size(const ArmLegs& robot) {
@@ -437,6 +448,8 @@ ArmLegsHeld arm_legs_hold(const ArmLegs& robot, const SE3<double>& pose,
   Report misfit = legs_misfit(robot, commands, load, options, work);
   if (misfit.ok() && !(pose.p.allFinite() && pose.R.matrix().allFinite()))
     misfit = {Status::bad_input, 0, 0, FixedText<240>("the pose is not finite")};
+  if (misfit.ok() && leaves_plane(robot, pose))
+    misfit = {Status::bad_input, 0, 0, FixedText<240>("the pose is out of the plane")};
   if (!misfit.ok()) {
     state = {};
     state.report = misfit;
@@ -453,7 +466,7 @@ ArmLegsHeld arm_legs_hold(const ArmLegs& robot, const SE3<double>& pose,
   return held;
 }
 
-ArmLegsRates arm_legs_rates(const ArmLegs&, ArmLegsWorkspace& work) {
+ArmLegsRates arm_legs_rates(const ArmLegs& robot, ArmLegsWorkspace& work) {
   ArmLegsWorkspace::Impl& impl = work.impl();
   ArmLegsRates rates;
   if (!impl.has_last()) return rates;
@@ -474,7 +487,8 @@ ArmLegsRates arm_legs_rates(const ArmLegs&, ArmLegsWorkspace& work) {
   if (!rates.has_stiffness) return rates;
   const auto stiffness = group.stiffness();
   for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) rates.stiffness[at(6 * i + j)] = stiffness(i, j);
+    for (int j = 0; j < 6; ++j)
+      if (!robot.is_planar || i != j || i < 2 || i > 4) rates.stiffness[at(6 * i + j)] = stiffness(i, j);
   return rates;
 }
 
@@ -486,6 +500,7 @@ ArmLegsLoadPath arm_legs_follow_load(const ArmLegs& robot, const std::array<doub
   ArmGroup::Wrench load;
   std::copy(direction.begin(), direction.end(), load.begin());
   if (!impl.has_last() || !load.allFinite() || load.isZero(0) || !(limit > 0)) return path;
+  if (robot.is_planar && !load.segment<3>(2).isZero(0)) return path;
   ArmGroup& group = impl.group();
   group.evaluate();
   if (!group.linearise()) return path;

@@ -96,6 +96,9 @@ class LegsWalk {
 /// Of the group, but for the report, `stable`, `resolution` and `reached`.
 void write_legs_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState& state);
 
+/// Whether the robot is one in the plane and the pose is not.
+bool leaves_plane(const ArmLegs& robot, const SE3<double>& pose);
+
 /// The longest leg [m].
 double legs_size(const ArmLegs& robot);
 
