@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "sinew/io/robot_file.hpp"
 #include "sinew_query.hpp"
@@ -123,6 +124,49 @@ TEST(PlanarArmLegsQuery, EveryQuestionHasNumbersOfThePlane) {
     EXPECT_NEAR(back[1]["wrench"][i].get<double>(), load[i].get<double>(), 1e-3) << back[1].dump();
   EXPECT_EQ(back[1]["covariance"].size(), 3U);
   EXPECT_EQ(back[2]["why"], "limit") << back[2].dump();
+}
+
+TEST(PlanarArmLegsQuery, AllTellsOtherEquilibriaAndStartGoesToThem) {
+  const Json query{{"query", "forward"}, {"tensions", some_tensions}, {"all", true}};
+  const Json answer = ask(robot, {query})[0];
+  ASSERT_EQ(answer["status"], "converged") << answer.dump();
+  EXPECT_EQ(answer["complete"], false);
+  EXPECT_EQ(answer["count"], answer["solutions"].size());
+  ASSERT_EQ(answer["solutions"].size(), 2U);  // as many as the kinematic robot's assembly modes
+  bool has_forward = false;
+  std::vector<Json> again;
+  for (const Json& one : answer["solutions"]) {
+    EXPECT_LE(one["residual"].get<double>(), 1e-9);
+    again.push_back({{"query", "forward"},
+                     {"tensions", some_tensions},
+                     {"start", {{"pose", one["pose"]}, {"curvatures", one["curvatures"]}}}});
+    has_forward = has_forward ||
+                  std::abs(one["pose"]["phi"].get<double>() - answer["pose"]["phi"].get<double>()) < 1e-6;
+  }
+  EXPECT_TRUE(has_forward);
+  const auto answers = ask(robot, again);
+  for (std::size_t k = 0; k < again.size(); ++k) {
+    const Json& one = answer["solutions"][k];
+    EXPECT_EQ(answers[k]["status"], one["stable"].get<bool>() ? "converged" : "unstable")
+        << answers[k].dump();
+    for (const char* key : {"x", "y", "phi"})
+      EXPECT_NEAR(std::remainder(answers[k]["pose"][key].get<double>() - one["pose"][key].get<double>(),
+                                 2 * std::numbers::pi),
+                  0, 1e-5);
+  }
+  const auto code = [](const Json& start) {
+    const Json refused =
+        ask(robot, {{{"query", "forward"}, {"tensions", some_tensions}, {"start", start}}})[0];
+    return refused.contains("error") ? refused["error"]["code"].get<std::string>()
+                                     : refused["status"].get<std::string>();
+  };
+  EXPECT_EQ(code({{"pose", answer["pose"]}}), "missing_key");
+  EXPECT_EQ(code({{"pose", answer["pose"]}, {"curvatures", Json::array()}}), "wrong_length");
+  EXPECT_EQ(code({{"pose", answer["pose"]}, {"curvatures", {Json::array(), Json::array(), Json::array()}}}),
+            "wrong_length");
+  EXPECT_EQ(code({{"pose", answer["pose"]}, {"curvatures", {{{0, 0}}, {{0, 0, 0}}, {{0, 0, 0}}}}}),
+            "wrong_length");
+  EXPECT_EQ(code("first"), "unknown_choice");
 }
 
 TEST(PlanarArmLegsQuery, LegsOfEveryClosureAreRead) {

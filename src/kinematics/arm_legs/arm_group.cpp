@@ -103,6 +103,58 @@ double ArmGroup::way_to_platform(const Leg& leg) const {
   return way.norm() > 1e-9 * leg.own->strut ? std::atan2(way.x(), way.z()) : 0;
 }
 
+void ArmGroup::begin_at(const Frame& platform) {
+  platform_ = platform;
+  for (Leg& leg : legs_) {
+    std::ranges::fill(rod(leg).work().y, 0.0);
+    aim(leg);
+    measure_closure(leg);
+    leg.gap = leg.off;
+  }
+}
+
+/// Turns the leg's free joints towards the platform.
+void ArmGroup::aim(Leg& leg) {
+  const strain::RodModel& model = rod(leg).model();
+  strain::RodWork& work = rod(leg).work();
+  const double unit = std::sqrt(model.energy_scale);
+  sweep_out(model, work);
+  const Vec3<double> point = mount_of(leg).p;
+  const strain::RodFrame& end = work.frames.back();
+  if (leg.own->turns_at_base) {
+    const auto angle_of = [&](const Vec3<double>& place) {
+      const Vec3<double> way = leg.own->base.rotate_back(place - leg.own->base.p);
+      return std::atan2(way.x(), way.z());
+    };
+    work.y[at(leg.pivots().front())] += unit * (angle_of(point) - angle_of(place_of(end)));
+  } else if (leg.own->strut > 0) {  // the bar's own axis is turned as the joint is
+    const Vec3<double> joint = place_of(end) - leg.own->strut * turn_of(end).col(2),
+                       way = turn_of(end).transpose() * (point - joint);
+    work.y[at(leg.pivots().front())] += unit * std::atan2(way.x(), way.z());
+  }
+  sweep_out(model, work);
+}
+
+void ArmGroup::take(const ArmLegsStart& start) {
+  platform_ = start.platform;
+  for (std::size_t k = 0; k < legs_.size(); ++k) {
+    Leg& leg = legs_[k];
+    take_curvatures(start.curvatures[k], rod(leg).model(), rod(leg).work().y);
+    aim(leg);
+    leg.force.setZero();
+    leg.moment.setZero();
+    for (Tendon& tendon : leg.tendons) tendon.tension = 0;
+    leg.gap.setZero();
+  }
+  set_share(1);
+}
+
+ArmLegsStart ArmGroup::start_here(int parts) const {
+  ArmLegsStart start{platform_, {}};
+  for (const Leg& leg : legs_) start.curvatures.push_back(arm_curvatures(leg.own->arm, parts, leg.work));
+  return start;
+}
+
 void ArmGroup::keep_in_plane(Wrench& wrench) const {
   if (robot_->is_planar) wrench.segment<3>(2).setZero();
 }

@@ -7,6 +7,7 @@
 
 #include "kinematics/arms/arm_work.hpp"
 #include "robot/limb_group.hpp"
+#include "sinew/kinematics/arm_legs.hpp"
 #include "sinew/robot/arm_legs.hpp"
 
 namespace sinew::inline v1 {
@@ -27,6 +28,12 @@ class ArmGroup final : public LimbGroup<Spatial> {
   /// is closed: at 0 the rest is an equilibrium, at 1 all holds.
   void set_share(double share);
   double share() const { return share_; }
+  /// At rest with the platform elsewhere, free joints turned towards it: the gaps are those of there. Of a
+  /// group at rest.
+  void begin_at(const Frame& platform);
+  /// Near a shape, without forces, and no gap is left: legs turn at their free joints towards the platform.
+  void take(const ArmLegsStart& start);
+  ArmLegsStart start_here(int parts) const;
   /// The state of another group of the same robot, of another basis.
   void carry_over_from(const ArmGroup& other);
 
@@ -148,6 +155,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   Vec3<double> moment_of(const Leg& leg) const;  ///< base axes
   Wrench needs(const Leg& leg) const;
   void stand(Leg& leg, const ArmBasis& basis);
+  void aim(Leg& leg);
   double way_to_platform(const Leg& leg) const;
   void measure_closure(Leg& leg);
   void keep_in_plane(Wrench& wrench) const;

@@ -39,10 +39,10 @@ std::span<const Finer> finer_bases(const ArmOptions& options) {
 /// By more a step of Newton's method may not turn a leg or the platform [rad].
 constexpr double longest_turn = 0.6;
 
-/// Newton's method at one share of inputs and loads.
-/// @param is_held the platform stays where it is
-LegsFound iterate(ArmGroup& group, bool is_held, const ArmOptions& options, const StopToken& stop,
-                  int spent) {
+}  // namespace
+
+LegsFound iterate_legs(ArmGroup& group, bool is_held, const ArmOptions& options, const StopToken& stop,
+                       int spent) {
   LegsFound found;
   double before = std::numeric_limits<double>::infinity();
   bool is_slow = false;
@@ -82,6 +82,8 @@ LegsFound iterate(ArmGroup& group, bool is_held, const ArmOptions& options, cons
   }
 }
 
+namespace {
+
 /// All that `put` sets changes from a share of it to the whole, in steps that adapt; the group is at an
 /// equilibrium of the first share.
 /// @param put what acts, and where a held platform is, at a share of the way
@@ -96,7 +98,7 @@ LegsFound grow(ArmGroup& group, const Put& put, bool is_held, const ArmOptions& 
   for (int part = 1;; ++part) {
     const double share = std::min(1.0, reached + step);
     put(share);
-    const LegsFound found = iterate(group, is_held, options, stop, all.iterations);
+    const LegsFound found = iterate_legs(group, is_held, options, stop, all.iterations);
     all.iterations += found.iterations;
     all.residual = found.residual;
     if (found.status == Status::stopped || found.status == Status::iteration_limit) {
@@ -147,10 +149,8 @@ std::string_view words_for(Status status, bool is_held) {
 /// would be pressed on a straight way to it.
 LegsFound begin_at_rest(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
                         const StopToken& stop, double& reached) {
-  reached = 0;
   if (problem.held) group.set_problem(problem.commands, ArmGroup::Wrench::Zero(), problem.gravity);
-  LegsFound found = grow(
-      group, [&](double share) { group.set_share(share); }, false, options, stop, reached);
+  LegsFound found = grow_legs(group, options, stop, reached);
   if (!problem.held) return found;
   if (found.status != Status::converged) {
     reached = 0;
@@ -167,7 +167,8 @@ ArmGroup::Wrench missing_of(ArmGroup& group) {
   return group.wrench_missing();
 }
 
-/// By how much polynomials that are finer move the platform, or would if it were free [m].
+}  // namespace
+
 double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_held) {
   const auto &a = coarse.platform(), &b = fine.platform();
   if (!is_held) return (a.p - b.p).norm() + coarse.radius() * (a.R.inverse().compose(b.R)).log().norm();
@@ -178,7 +179,31 @@ double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_held) {
   return twist.head<3>().norm() + coarse.radius() * twist.tail<3>().norm();
 }
 
-}  // namespace
+LegsFound grow_legs(ArmGroup& group, const ArmOptions& options, const StopToken& stop, double& reached) {
+  reached = 0;
+  return grow(
+      group, [&](double share) { group.set_share(share); }, false, options, stop, reached);
+}
+
+std::vector<ArmBasis> bases_of(const ArmOptions& options) {
+  std::vector<ArmBasis> bases;
+  for (const Finer& finer : finer_bases(options))
+    bases.push_back({options.model, finer.order, finer.elements});
+  if (bases.empty()) bases.push_back({options.model, options.order, options.elements});
+  return bases;
+}
+
+bool prepare_levels(const ArmOptions& options, ArmLegsWorkspace& work) {
+  ArmLegsWorkspace::Impl& impl = work.impl();
+  const std::size_t count = bases_of(options).size();
+  if (impl.model == options.model && impl.order == options.order && impl.elements == options.elements &&
+      impl.levels.size() == count)
+    return true;
+  impl.levels.clear();
+  impl.levels.resize(count);
+  impl.model = options.model, impl.order = options.order, impl.elements = options.elements;
+  return false;
+}
 
 LegsProblem::LegsProblem(const ArmLegs& robot, std::span<const TendonCommand> tendons,
                          const ArmLegsLoad& load)
@@ -321,26 +346,17 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
                 ArmLegsWorkspace& work, LegsEnd end) {
   ArmLegsWorkspace::Impl& impl = work.impl();
   const bool is_held = problem.held.has_value();
-  const auto bases = finer_bases(options);
-  const std::size_t count = std::max<std::size_t>(1, bases.size());
-  const bool is_same = impl.model == options.model && impl.order == options.order &&
-                       impl.elements == options.elements && impl.levels.size() == count;
-  const bool goes_on = options.from_last && is_same && impl.has_last();
-  if (!is_same) {
-    impl.levels.clear();
-    impl.levels.resize(count);
-    impl.model = options.model, impl.order = options.order, impl.elements = options.elements;
-  }
+  const auto bases = bases_of(options);
+  const bool is_same = prepare_levels(options, work),
+             goes_on = options.from_last && is_same && impl.has_last();
   ArmLegsState& state = impl.state;
   state = {};
   const auto put = [&](ArmGroup& group) {
     group.set_problem(problem.commands, problem.wrench, problem.gravity);
   };
   const auto ready = [&](std::size_t level) -> ArmGroup& {
-    ArmBasis basis{options.model, options.order, options.elements};
-    if (!bases.empty()) basis.order = bases[level].order, basis.elements = bases[level].elements;
     // Anew: the rest of a group is where its shapes are those at rest.
-    impl.levels[level] = std::make_unique<ArmGroup>(robot, basis);
+    impl.levels[level] = std::make_unique<ArmGroup>(robot, bases[level]);
     put(*impl.levels[level]);
     return *impl.levels[level];
   };
@@ -380,7 +396,7 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
     if (is_there) put(finer);
     finer.carry_over_from(*group);
     finer.set_share(1);
-    LegsFound again = iterate(finer, is_held, options, work.stop, found.iterations);
+    LegsFound again = iterate_legs(finer, is_held, options, work.stop, found.iterations);
     if (again.status == Status::converged &&
         (!finer.factor_limbs() || (is_held ? finer.unstable_held() : finer.unstable()) != 0))
       again.status = Status::unstable;

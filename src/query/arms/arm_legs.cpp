@@ -29,9 +29,11 @@ std::vector<std::size_t> tendon_counts_of(const ArmLegs& robot) {
 }
 
 constexpr std::string_view not_yet = "is not available of legs of sections in this version; leave it out";
-constexpr Lack lacking[] = {
-    {"following", not_yet}, {"distributed", not_yet}, {"distributed_following", not_yet},
-    {"loads", not_yet},     {"all", not_yet},         {"balance", not_yet}};
+constexpr Lack lacking[] = {{"following", not_yet},
+                            {"distributed", not_yet},
+                            {"distributed_following", not_yet},
+                            {"loads", not_yet},
+                            {"balance", not_yet}};
 
 /// Numbers of a robot in space, or of one in the plane those that it has.
 /// @{
@@ -228,8 +230,38 @@ struct LegsForward {
   std::vector<TendonCommand> commands;
   ArmLegsLoad load;
   std::optional<LegsUntil> until;
+  std::optional<ArmLegsStart> start;  ///< a shape
+  bool wants_all = false;
   LegsWanted wanted;
 };
+
+/// `start`: `last`, or a solution's pose and curvatures.
+std::optional<ArmLegsStart> read_legs_start(Context& context, ArmOptions& options) {
+  constexpr std::size_t most_parts = 1000;
+  const ArmLegs& robot = *context.robot.arm_legs();
+  const Node* given = context.query.node()->find("start");
+  if (!given || given->kind != Node::Kind::map) {
+    read_arm_start(context, options);
+    return {};
+  }
+  options.from_last = false;
+  Reader start = context.query.required("start");
+  ArmLegsStart shape{read_pose_of(robot, start.required("pose", "where the platform is")), {}};
+  const Reader curvatures =
+      start.required("curvatures", "of each leg the mean curvatures of equal parts, as `all` tells them");
+  for (const Reader& leg : curvatures.items(robot.legs.size())) {
+    const auto parts = leg.items();
+    if (parts.empty() || parts.size() > most_parts)
+      leg.fail("wrong_length",
+               fmt::format("a shape has the mean curvatures of 1 to {} equal parts of the leg, found {}",
+                           most_parts, parts.size()));
+    auto& of_leg = shape.curvatures.emplace_back();
+    for (std::size_t k = 0; k < std::min(parts.size(), most_parts); ++k)
+      of_leg.push_back(parts[k].array<3>(Dimension::curvature, {.low = -1e6, .high = 1e6}));
+  }
+  start.close();
+  return shape;
+}
 
 LegsForward read_legs(Context& context) {
   const ArmLegs& robot = *context.robot.arm_legs();
@@ -237,17 +269,48 @@ LegsForward read_legs(Context& context) {
   asked.options = read_legs_options(context);
   asked.commands = read_arm_commands(tendon_counts_of(robot), context.query);
   asked.load = read_legs_load(robot, context.query);
-  read_arm_start(context, asked.options);
-  if (context.ask == Ask::forward) asked.until = read_legs_until(context, robot);
+  asked.start = read_legs_start(context, asked.options);
+  if (context.ask == Ask::forward) {
+    asked.until = read_legs_until(context, robot);
+    if (const auto all = context.query.optional("all")) {
+      asked.wants_all = all->boolean();
+      if (asked.wants_all && asked.until)
+        all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
+    }
+  }
   asked.wanted = read_legs_wants(context);
   return asked;
 }
 
+void put_legs_solutions(Context& context, const ArmLegs& robot, const LegsForward& asked) {
+  constexpr int starts = 30;
+  Value solutions = Value::list();
+  const std::vector<ArmLegsEquilibrium> found =
+      arm_legs_equilibria(robot, asked.commands, asked.load, asked.options, starts, *context.work.arm_legs);
+  for (const ArmLegsEquilibrium& one : found) {
+    if (one.start.curvatures.empty()) continue;  // there is none
+    Value solution = Value::map();
+    put_legs_numbers(solution, robot, one.state);
+    solution["stable"] = one.state.stable;
+    solution["residual"] = one.state.report.residual;
+    Value legs = Value::list();
+    for (const auto& leg : one.start.curvatures) {
+      std::vector<double> numbers;
+      for (const auto& part : leg) numbers.insert(numbers.end(), part.begin(), part.end());
+      legs.push_back(Value(numbers, 3));
+    }
+    solution["curvatures"] = std::move(legs);
+    solutions.push_back(std::move(solution));
+  }
+  put_solutions(context, context.work.stop, std::move(solutions));
+}
+
 void answer_legs(Context& context, const LegsForward& asked) {
-  const auto& [options, commands, load, until, wanted] = asked;
+  const auto& [options, commands, load, until, start, wants_all, wanted] = asked;
   const ArmLegs& robot = *context.robot.arm_legs();
   ArmLegsWorkspace& work = legs_work(context);
-  const ArmLegsState& state = arm_legs_forward(robot, commands, load, options, work);
+  const ArmLegsState& state = start ? arm_legs_forward_from(robot, *start, commands, load, options, work)
+                                    : arm_legs_forward(robot, commands, load, options, work);
   if (until && state.report.ok()) {
     const ArmLegsLoadPath path = arm_legs_follow_load(robot, until->direction, until->limit, work);
     put_legs_state(context, robot, path.state, path.state.report);
@@ -256,7 +319,11 @@ void answer_legs(Context& context, const LegsForward& asked) {
   } else {
     put_legs_state(context, robot, state, state.report);
   }
+  if (state.report.status == Status::stalled && context.ask == Ask::forward && !wants_all && !until)
+    context.add_message("all: true looks from other poses, too");
   put_legs_wants(context, robot, state, wanted);
+  if (wants_all && state.report.status != Status::bad_input && state.report.status != Status::unsupported)
+    put_legs_solutions(context, robot, asked);
 }
 
 /// The points of a path; what a point does not say is as at the point before, of loads as in the question.
