@@ -153,12 +153,18 @@ std::string show_arm_legs_robot(const OpenRobot& robot) {
 std::string show_arm_legs(const Answer& answer, const OpenRobot& robot) {
   if (!answer.find("pose")) return {};
   std::string text = show_pose(*answer.find("pose")) + '\n' + show_tendon_states(answer, robot) + '\n';
-  TextTable table({"on the tip of", "fx[N]", "fy[N]", "fz[N]", "mx[N m]", "my[N m]", "mz[N m]"});
+  const bool is_planar = robot.description.text("space") == "planar";
+  TextTable table(is_planar ? std::vector<std::string>{"on the tip of", "fx[N]", "fy[N]", "mz[N m]"}
+                            : std::vector<std::string>{"on the tip of", "fx[N]", "fy[N]", "fz[N]", "mx[N m]",
+                                                       "my[N m]", "mz[N m]"});
   const auto& legs = answer.find("legs")->items;
   for (std::size_t k = 0; k < legs.size(); ++k) {
-    std::vector<std::string> row{fmt::format("legs[{}]", k)};
+    std::vector<double> parts;
     for (const char* part : {"force", "moment"})
-      for (const double value : numbers(legs[k].find(part))) row.push_back(six_digits(value));
+      for (const double value : numbers(legs[k].find(part))) parts.push_back(value);
+    if (is_planar) parts.erase(parts.begin() + 2, parts.end() - 1);
+    std::vector<std::string> row{fmt::format("legs[{}]", k)};
+    for (const double value : parts) row.push_back(six_digits(value));
     table.add(std::move(row));
   }
   text += table.text();

@@ -53,7 +53,9 @@ SHAPES = {
     "lists": LISTS,
     "pose": {"$ref": "#/definitions/pose"},
     "independent": {"$ref": "#/definitions/independent"},
-    "start": {"anyOf": [{"$ref": "#/definitions/place"}, LISTS, {"const": "last"}]},
+    "start": {"anyOf": [{"$ref": "#/definitions/place"}, LISTS, {"const": "last"},
+                        {"type": "object", "properties": {"pose": {"$ref": "#/definitions/place"}, "curvatures": {"type": "array"}},
+                         "required": ["pose", "curvatures"], "additionalProperties": False}]},
     "place": {"$ref": "#/definitions/place"},
     "places": {"type": "array", "items": {"$ref": "#/definitions/place"}},
     "target": {"anyOf": [{"$ref": "#/definitions/place"}, {

@@ -14,7 +14,7 @@ FIELDS = (
     ('elbow', 'numbers', '', 'side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)'),
     ('curvature', 'numbers', '1/m', 'a curvature for each leg; the nearest solution is taken; (legs,)'),
     ('angles', 'lists', 'rad', 'of the joints of each chain, from the first sprung one; before them the direction of a first link that a motor turns'),
-    ('start', 'any', '', "where the search begins: a pose, of inverse and track inputs, of a serial robot its configuration, of an arm the mean curvatures and torsion of equal parts, as `all` tells them of each solution, or last, where the last question with a start ended, of `track` of an arm where its last path did, with what friction remembers; default the robot's home"),
+    ('start', 'any', '', "where the search begins: a pose, of inverse and track inputs, of a serial robot its configuration, of an arm the mean curvatures and torsion of equal parts, as `all` tells them of each solution, of a platform on legs of sections a solution's pose and curvatures, or last, where the last question with a start ended, of `track` of an arm where its last path did, with what friction remembers; default the robot's home"),
     ('set_at', 'pose', 'm, rad', 'the pose at which the tendons are set without load, the outer ones loose'),
     ('hold', 'word', '', 'what stays after `set_at` or with `pose`: tension (default) or length'),
     ('tensions', 'lists', 'N', 'of both tendons of each leg; of an arm those of each section, of legs of sections those of leg 0 first, null for a tendon that `changes` has'),

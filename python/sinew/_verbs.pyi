@@ -70,9 +70,9 @@ class Verbs:
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, of an arm the mean curvatures and torsion of equal
-                parts, as `all` tells them of each solution, or last, where the last question with a start
-                ended, of `track` of an arm where its last path did, with what friction remembers; default
-                the robot's home
+                parts, as `all` tells them of each solution, of a platform on legs of sections a solution's
+                pose and curvatures, or last, where the last question with a start ended, of `track` of an
+                arm where its last path did, with what friction remembers; default the robot's home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
                 of legs of sections those of leg 0 first, null for a tendon that `changes` has; a list each,
                 or an array
@@ -216,9 +216,9 @@ class Verbs:
             curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, of an arm the mean curvatures and torsion of equal
-                parts, as `all` tells them of each solution, or last, where the last question with a start
-                ended, of `track` of an arm where its last path did, with what friction remembers; default
-                the robot's home
+                parts, as `all` tells them of each solution, of a platform on legs of sections a solution's
+                pose and curvatures, or last, where the last question with a start ended, of `track` of an
+                arm where its last path did, with what friction remembers; default the robot's home
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
                 arm on its tip, in base axes; (3,) in the plane, (6,) in space
             gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
@@ -356,9 +356,9 @@ class Verbs:
                 them the direction of a first link that a motor turns; a list each, or an array
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, of an arm the mean curvatures and torsion of equal
-                parts, as `all` tells them of each solution, or last, where the last question with a start
-                ended, of `track` of an arm where its last path did, with what friction remembers; default
-                the robot's home
+                parts, as `all` tells them of each solution, of a platform on legs of sections a solution's
+                pose and curvatures, or last, where the last question with a start ended, of `track` of an
+                arm where its last path did, with what friction remembers; default the robot's home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
                 of legs of sections those of leg 0 first, null for a tendon that `changes` has; a list each,
                 or an array
@@ -501,9 +501,9 @@ class Verbs:
             curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, of an arm the mean curvatures and torsion of equal
-                parts, as `all` tells them of each solution, or last, where the last question with a start
-                ended, of `track` of an arm where its last path did, with what friction remembers; default
-                the robot's home
+                parts, as `all` tells them of each solution, of a platform on legs of sections a solution's
+                pose and curvatures, or last, where the last question with a start ended, of `track` of an
+                arm where its last path did, with what friction remembers; default the robot's home
             set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold (str): what stays after `set_at` or with `pose`: tension (default) or length
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
@@ -661,9 +661,9 @@ class Verbs:
                 them the direction of a first link that a motor turns; a list each, or an array
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, of an arm the mean curvatures and torsion of equal
-                parts, as `all` tells them of each solution, or last, where the last question with a start
-                ended, of `track` of an arm where its last path did, with what friction remembers; default
-                the robot's home
+                parts, as `all` tells them of each solution, of a platform on legs of sections a solution's
+                pose and curvatures, or last, where the last question with a start ended, of `track` of an
+                arm where its last path did, with what friction remembers; default the robot's home
             set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold (str): what stays after `set_at` or with `pose`: tension (default) or length
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
@@ -869,9 +869,9 @@ class Verbs:
                 them the direction of a first link that a motor turns; a list each, or an array
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, of an arm the mean curvatures and torsion of equal
-                parts, as `all` tells them of each solution, or last, where the last question with a start
-                ended, of `track` of an arm where its last path did, with what friction remembers; default
-                the robot's home
+                parts, as `all` tells them of each solution, of a platform on legs of sections a solution's
+                pose and curvatures, or last, where the last question with a start ended, of `track` of an
+                arm where its last path did, with what friction remembers; default the robot's home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
                 of legs of sections those of leg 0 first, null for a tendon that `changes` has; a list each,
                 or an array

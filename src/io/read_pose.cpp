@@ -1,5 +1,7 @@
 #include "io/read_pose.hpp"
 
+#include <cmath>
+
 #include "io/reader.hpp"
 #include "math/tilt.hpp"
 
@@ -57,6 +59,20 @@ SpatialPose read_spatial_pose(Reader pose) {
 Vec3<double> read_gravity(const Reader& gravity) {
   const auto [x, y, z] = gravity.array<3>(Dimension::acceleration, Range::between(-1e6, 1e6));
   return {x, y, z};
+}
+
+std::array<double, 3> read_gravity_of(const Reader& gravity, bool is_planar) {
+  const Vec3<double> g = read_gravity(gravity);
+  if (is_planar && g.z() != 0)
+    gravity.fail("no_effect",
+                 "its third number has no effect: it acts out of the plane in which alone the robot moves; "
+                 "write 0");
+  return {g.x(), g.y(), g.z()};
+}
+
+SpatialPose in_space(const PlanarPose& pose) {
+  return {.position = {pose.x, pose.y, 0},
+          .quaternion = {std::cos(pose.phi / 2), 0, 0, std::sin(pose.phi / 2)}};
 }
 
 }  // namespace sinew::inline v1

@@ -1,6 +1,8 @@
 /// @file read_pose.hpp
 /// Poses as robot files and queries write them.
 #pragma once
+#include <array>
+
 #include "io/reader.hpp"
 #include "sinew/math/se3.hpp"
 
@@ -15,5 +17,10 @@ SINEW_API SpatialPose read_spatial_pose(Reader pose);
 
 /// `[x, y, z]`: what falls falls so [m/s²], base axes.
 SINEW_API Vec3<double> read_gravity(const Reader& gravity);
+/// The same of a robot that may be one in the plane, where gravity acts in it.
+SINEW_API std::array<double, 3> read_gravity_of(const Reader& gravity, bool is_planar);
+
+/// In the plane of x and y.
+SpatialPose in_space(const PlanarPose& pose);
 
 }  // namespace sinew::inline v1

@@ -18,6 +18,7 @@
 #include "query/unit_hint.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/robot/arm_legs.hpp"
 #include "tendon/theta_is.hpp"
 
 namespace sinew::inline v1 {
@@ -232,7 +233,8 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
 bool read_tilt(Reader& query, const Opened& opened) {
   const auto asked = query.optional("tilt");
   const bool is_wanted = asked && asked->boolean();
-  if (is_wanted && opened.robot.planar())
+  const ArmLegs* legs = opened.robot.arm_legs();
+  if (is_wanted && (opened.robot.planar() || (legs && legs->is_planar)))
     asked->fail("no_effect", "has no effect: in the plane phi says how the platform is turned; remove it");
   return is_wanted;
 }

@@ -77,6 +77,10 @@ class Builder {
   RodModel build(std::vector<double> breaks) {
     std::ranges::sort(breaks);
     double from = 0, bending = 0;
+    for (const ArmSection& section : arm_.sections)
+      bending += section.length / std::min(section.start.bending_x, section.start.bending_y);
+    rod_.energy_scale = 1 / bending;
+    if (basis_.turns_at_base) add_pivot(0);
     for (std::size_t m = 0; m < arm_.sections.size(); ++m) {
       const ArmSection& section = arm_.sections[m];
       std::vector<double> cuts;
@@ -85,12 +89,16 @@ class Builder {
           cuts.push_back((place - from) / section.length);
       add_section(static_cast<int>(m), cuts);
       from += section.length;
-      bending += section.length / std::min(section.start.bending_x, section.start.bending_y);
     }
-    rod_.energy_scale = 1 / bending;
+    if (basis_.strut > 0) {
+      add_pivot(basis_.strut_angle);
+      add_strut(basis_.strut);
+    }
     for (Piece& piece : rod_.pieces) {
       piece.first = rod_.size;
       rod_.size += piece.size;
+      if (rod_.elements[at(rod_.spans[at(piece.first_span)].first_element)].is_pivot)
+        rod_.pivots.push_back(piece.first);
       add_rows(piece);
     }
     rod_.masses.back().amount += arm_.tip_mass;
@@ -100,6 +108,8 @@ class Builder {
   }
 
  private:
+  /// Whether there may be a strain of this component.
+  bool is_free(std::size_t component) const { return !basis_.in_plane || component % 2 == 0; }
   bool by_section() const { return basis_.model == ArmModel::rod || basis_.model == ArmModel::cc; }
   int modes() const {
     if (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc) return 1;
@@ -178,6 +188,39 @@ class Builder {
     }
     if (channel && section.discs.mass > 0) add_discs(section, first);
     place_ += section.length;
+  }
+
+  /// A joint that turns freely about y, a piece of its own.
+  /// @param angle at which its coordinate is 0 [rad]
+  void add_pivot(double angle) {
+    Piece piece;
+    piece.modes[4] = piece.size = 1;
+    piece.scale[4] = 1 / std::sqrt(rod_.energy_scale);
+    begin(piece);
+    begin_span();
+    Element element;
+    element.points = 1;
+    element.weight = 1;
+    element.is_pivot = true;
+    element.rest[0][4] = angle;
+    element.stiffness[0][4] = rod_.energy_scale;
+    element.modes[0][0] = 1;
+    push_bare(element);
+  }
+  /// A rigid bar without mass, of the piece at hand.
+  void add_strut(double length) {
+    Element bar;
+    bar.points = 0;
+    bar.length = length;
+    for (auto& rest : bar.rest) rest = {0, 0, 1, 0, 0, 0};
+    push_bare(bar);
+  }
+  void push_bare(const Element& element) {
+    rod_.elements.push_back(element);
+    ++rod_.spans.back().elements;
+    rod_.masses.emplace_back();
+    rod_.lengths.emplace_back();
+    rod_.places.push_back(rod_.places.back() + element.length);
   }
 
   /// Joints in the middle of even links, and rigid links between them and point loads.
@@ -272,7 +315,7 @@ class Builder {
     modes = std::min(modes, strain::max_piece / 6 / piece.stretches);
     const bool fine = basis_.order < 0 && cuts.empty();  // what is stiff follows with one order less
     for (std::size_t c = 0; c < 6; ++c) {
-      if (stiffness[c] <= 0) continue;
+      if (stiffness[c] <= 0 || !is_free(c)) continue;
       if (c == 5 && basis_.twist_at_discs) continue;
       if (c < 3 && (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc)) continue;
       piece.modes[c] = piece.stretches * (fine && c < 3 && modes > 1 ? modes - 1 : modes);
@@ -293,6 +336,7 @@ class Builder {
     const CrossSection here = section_at(section, 0.5 * (start + end));
     const Six stiffness{0, 0, 0, here.bending_x / length, here.bending_y / length, here.torsion / length};
     for (std::size_t c = 3; c < (twists ? 6U : 5U); ++c) {
+      if (!is_free(c)) continue;
       piece.modes[c] = joints;
       piece.scale[c] = 1 / std::sqrt(stiffness[c]);
       piece.offset[c] = piece.size;

@@ -14,6 +14,14 @@ struct ArmBasis {
   /// What lies between discs (subsegment_cc, prb) only bends, and twists at its end, at the disc. The joints
   /// of prb are then three, where they follow a beam under a moment and a force at its end.
   bool twist_at_discs = false;
+  /// Strains in the section's plane of z and x alone: stretch, shear along x, bending about y.
+  bool in_plane = false;
+  /// @name Joints without stiffness about y, of a leg in the plane: RodModel::pivots
+  /// @{
+  bool turns_at_base = false;  ///< one before the first section
+  double strut = 0;            ///< length of a rigid bar on one after the last section [m]; 0: none
+  double strut_angle = 0;      ///< of the bar to the last section at rest, about y [rad]
+  /// @}
 };
 
 /// @param breaks where point loads act, from the base [m]: nodes are there

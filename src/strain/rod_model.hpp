@@ -41,6 +41,7 @@ struct Element {
   int stretch = 0;                                       ///< which stretch of its piece that is
   int first_row = 0;                ///< in RodModel::rows: the same, scaled, for each point 6 × padded
   int first_guide = 0, guides = 0;  ///< in RodModel::guides: tendons that a channel guides along the rod
+  bool is_pivot = false;            ///< a joint that turns freely, see RodModel::pivots
 };
 
 /// A tendon in a channel: where it runs at the Gauss points of an element.
@@ -88,6 +89,9 @@ struct RodModel {
   std::vector<double> rows;                ///< strains by coordinates, see Element::first_row
   std::vector<NodeShare> masses, lengths;  ///< of every node; node k + 1 is the end of element k
   std::vector<double> places;              ///< of every node, from the base [m]
+  /// Coordinates of joints that turn freely. What the sweeps give of such a joint is that of one with the
+  /// stiffness 1 of the energy ½|y|²: who has them takes it back.
+  std::vector<int> pivots;
   int tendons = 0, size = 0;
   double energy_scale = 1;  ///< EI/L [J]
 

@@ -27,7 +27,7 @@ COMMAND = JUDGE = ""
 SCHEMA = json.loads((ROOT / "schema/robot.schema.json").read_text(encoding="utf-8"))
 
 # What a schema cannot say: relations between values. The reader alone refuses these.
-READER_ALONE = {"coincident_base_points", "collapsed_platform", "no_direction", "no_rotation", "longer_than_section",
+READER_ALONE = {"coincident_base_points", "collapsed_platform", "loose_platform", "out_of_plane", "no_direction", "no_rotation", "longer_than_section",
                 "guide_beyond_tip", "missing_guide", "wrong_tendon_count"}
 
 VALUES = ["nonsense", "-1 mm", "0 mm", "1 kg", -1, [1]]

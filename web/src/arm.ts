@@ -78,12 +78,13 @@ export function armLegsDescribed(described: Json): Described {
     ...described, length: Math.max(...legs.map(({link}) => link.length)), sections: legs.flatMap(({link}, leg) => link.sections.map((one: Json) => ({...one, leg}))),
     tendons: legs.flatMap(({link}, leg) => link.tendons.map((one: Json) => ({...one, section: first(leg) + one.section}))),
   };
+  const isPlanar = answer.space === 'planar', [forces, moments] = isPlanar ? [['Fx', 'Fy'], ['M']] : [['Fx', 'Fy', 'Fz'], ['Mx', 'My', 'Mz']];
   const rows = rowsOf(answer), force = round((legs.length * 4 * stiffnessTo(answer, 0)) / answer.length ** 2);
   return {
-    answer, isSerial: false, isArm: true, hasArmLegs: true, isPlanar: false, isHeldByFew: false, models: answer.models, canBend: false,
+    answer, isSerial: false, isArm: true, hasArmLegs: true, isPlanar, isHeldByFew: false, models: answer.models, canBend: false,
     hasGravity: (answer.gravity ?? []).some((part: number) => part !== 0),
     inputs: rows.tension, pose: platformRows(answer), holding: {held: rows.tension.map(() => 'tension'), rows},
-    load: [...['Fx', 'Fy', 'Fz'].map((name) => free(name, 'N', 0, force)), ...['Mx', 'My', 'Mz'].map((name) => free(name, 'N m', 0, round((force * answer.length) / 4)))],
+    load: [...forces.map((name) => free(name, 'N', 0, force)), ...moments.map((name) => free(name, 'N m', 0, round((force * answer.length) / 4)))],
   };
 }
 

@@ -109,8 +109,9 @@ function poseRows(answer: Json, isHeldByFew: boolean): Row[] {
   return platformRows(answer);
 }
 
-/** Of a platform in space that is free to be anywhere. */
-export function platformRows({home}: Json): Row[] {
+/** Of a platform that is free to be anywhere. */
+export function platformRows({home, length}: Json): Row[] {
+  if (home.position === undefined) return [free('x', 'm', home.x, 0.3 * length), free('y', 'm', home.y, 0.3 * length), free('phi', 'rad', home.phi, 1)];
   const [x, y, z] = home.position, reach = 0.3 * z || 0.1;
   return [free('x', 'm', x, reach), free('y', 'm', y, reach), free('z', 'm', z, reach), {...free('tilt', 'rad', 0, 0), high: 1},
           free('azimuth', 'rad', 0, Math.PI), free('torsion', 'rad', 0, 1)];

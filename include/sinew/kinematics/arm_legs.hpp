@@ -44,6 +44,35 @@ SINEW_API const ArmLegsState& arm_legs_forward(const ArmLegs& robot, std::span<c
                                                const ArmLegsLoad& load, const ArmOptions& options,
                                                ArmLegsWorkspace& work);
 
+/// Where a search begins: near a shape of all legs.
+struct ArmLegsStart {
+  SE3<double> platform;  ///< base axes [m]
+  /// Of each leg the mean curvatures and torsion of as many equal parts, in its own axes [rad/m].
+  std::vector<std::vector<std::array<double, 3>>> curvatures;
+};
+/// The equilibrium that Newton's method finds from there, at once under all that acts; it may be unstable,
+/// and the report is then `unstable`. `stalled`: none was found. `bad_input`, too: curvatures of not every
+/// leg, or none of one.
+SINEW_API const ArmLegsState& arm_legs_forward_from(const ArmLegs& robot, const ArmLegsStart& start,
+                                                    std::span<const TendonCommand> commands,
+                                                    const ArmLegsLoad& load, const ArmOptions& options,
+                                                    ArmLegsWorkspace& work);
+
+/// One of many equilibria.
+struct ArmLegsEquilibrium {
+  ArmLegsState state;  ///< its report is `unstable` where it does not hold by itself
+  ArmLegsStart start;  ///< from where arm_legs_forward_from() finds it again
+};
+/// Equilibria under these inputs and loads, that of the lowest potential, motors' work with it, first. They
+/// are found from other poses of the platform and under loads and pulls that then go, and need not be all.
+/// Where there is none it is the one report of arm_legs_forward(). The workspace is left in the first.
+/// @param starts how many beginnings, ≥ 1
+SINEW_API std::vector<ArmLegsEquilibrium> arm_legs_equilibria(const ArmLegs& robot,
+                                                              std::span<const TendonCommand> commands,
+                                                              const ArmLegsLoad& load,
+                                                              const ArmOptions& options, int starts,
+                                                              ArmLegsWorkspace& work);
+
 /// A platform that is held at a pose.
 struct ArmLegsHeld {
   /// An equilibrium under the wrench below; `stable` is of the platform when it is let go under it.

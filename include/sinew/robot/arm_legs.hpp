@@ -22,12 +22,22 @@ struct ArmLeg {
   /// Its tip is fixed to the platform; else it turns there freely, as in a ball joint.
   bool is_clamped = false;
   SO3<double> mount = {};  ///< of a clamped tip's axes, in the platform's [1]
+  /// @name Of a robot in the plane
+  /// @{
+  bool turns_at_base = false;  ///< its first section turns freely about the base point
+  /// Length of a rigid bar without mass from the tip to the platform, free to turn at both ends [m]; 0: none.
+  double strut = 0;
+  /// @}
 };
 
 /// Constant once built, and shared between threads.
 struct ArmLegs {
   std::string name;
   std::vector<ArmLeg> legs;
+  /// All of it moves in the plane of the base's x and y, and only forces in it count: legs bend about z,
+  /// about which every leg's y axis is, and shear and stretch in the plane. Whether it would leave the plane
+  /// by itself is not asked.
+  bool is_planar = false;
   SpatialPose home;                        ///< of the platform, with all legs at rest
   std::array<double, 3> gravity{0, 0, 0};  ///< base axes [m/s²]
   double platform_mass = 0;                ///< at the platform's reference point [kg], ≥ 0

@@ -48,19 +48,22 @@ ArmGroup::ArmGroup(const ArmLegs& robot, const ArmBasis& basis)
   legs_.reserve(robot.legs.size());
   for (const ArmLeg& own : robot.legs) {
     Leg& leg = legs_.emplace_back(own);
-    ArmWorkspace::Impl& impl = leg.work.impl();
-    impl.levels.push_back(std::make_unique<ArmRod>(make_rod(own.arm, basis)));
-    impl.level = 0;
-    strain::RodWork& work = rod(leg).work();
-    const Three3 turn = own.base.R.matrix();
-    strain::RodFrame& foot = work.frames.front();
-    for (int i = 0; i < 3; ++i) {
-      foot.p[i] = own.base.p[i];
-      for (int j = 0; j < 3; ++j) foot.R[3 * i + j] = turn(i, j);
+    ArmBasis of_leg = basis;
+    of_leg.in_plane = robot.is_planar;
+    of_leg.turns_at_base = own.turns_at_base;
+    stand(leg, of_leg);
+    if (own.strut > 0) {
+      of_leg.strut = own.strut;
+      of_leg.strut_angle = way_to_platform(leg);
+      stand(leg, of_leg);
     }
-    sweep_out(rod(leg).model(), work);
+    strain::RodWork& work = rod(leg).work();
     leg.first_feed = feeds_;
     leg.closed = own.is_clamped ? 6 : 3;
+    if (robot.is_planar) {  // the mount's y axis is square to the plane
+      leg.closed = own.is_clamped ? 3 : 2;
+      leg.components = {0, 1, 4, 0, 0, 0};
+    }
     for (std::size_t i = 0; i < own.arm.tendons.size(); ++i) {
       const ArmTendon& from = own.arm.tendons[i];
       Tendon& tendon = leg.tendons.emplace_back();
@@ -76,6 +79,94 @@ ArmGroup::ArmGroup(const ArmLegs& robot, const ArmBasis& basis)
     radius_ = std::max(radius_, 0.01 * own.arm.length());
   }
   set_share(0);
+}
+
+/// At rest.
+void ArmGroup::stand(Leg& leg, const ArmBasis& basis) {
+  ArmWorkspace::Impl& impl = leg.work.impl();
+  impl.levels.clear();
+  impl.levels.push_back(std::make_unique<ArmRod>(make_rod(leg.own->arm, basis)));
+  impl.level = 0;
+  const Three3 turn = leg.own->base.R.matrix();
+  strain::RodFrame& foot = rod(leg).work().frames.front();
+  for (int i = 0; i < 3; ++i) {
+    foot.p[i] = leg.own->base.p[i];
+    for (int j = 0; j < 3; ++j) foot.R[3 * i + j] = turn(i, j);
+  }
+  sweep_out(rod(leg).model(), rod(leg).work());
+}
+
+/// From the tip's z axis, about its y [rad].
+double ArmGroup::way_to_platform(const Leg& leg) const {
+  const strain::RodFrame& tip = rod(leg).work().frames.back();
+  const Vec3<double> way = turn_of(tip).transpose() * (mount_of(leg).p - place_of(tip));
+  return way.norm() > 1e-9 * leg.own->strut ? std::atan2(way.x(), way.z()) : 0;
+}
+
+void ArmGroup::begin_at(const Frame& platform) {
+  platform_ = platform;
+  for (Leg& leg : legs_) {
+    std::ranges::fill(rod(leg).work().y, 0.0);
+    aim(leg);
+    measure_closure(leg);
+    leg.gap = leg.off;
+  }
+}
+
+/// Turns the leg's free joints towards the platform.
+void ArmGroup::aim(Leg& leg) {
+  const strain::RodModel& model = rod(leg).model();
+  strain::RodWork& work = rod(leg).work();
+  const double unit = std::sqrt(model.energy_scale);
+  sweep_out(model, work);
+  const Vec3<double> point = mount_of(leg).p;
+  const strain::RodFrame& end = work.frames.back();
+  if (leg.own->turns_at_base) {
+    const auto angle_of = [&](const Vec3<double>& place) {
+      const Vec3<double> way = leg.own->base.rotate_back(place - leg.own->base.p);
+      return std::atan2(way.x(), way.z());
+    };
+    work.y[at(leg.pivots().front())] += unit * (angle_of(point) - angle_of(place_of(end)));
+  } else if (leg.own->strut > 0) {  // the bar's own axis is turned as the joint is
+    const Vec3<double> joint = place_of(end) - leg.own->strut * turn_of(end).col(2),
+                       way = turn_of(end).transpose() * (point - joint);
+    work.y[at(leg.pivots().front())] += unit * std::atan2(way.x(), way.z());
+  }
+  sweep_out(model, work);
+}
+
+void ArmGroup::take(const ArmLegsStart& start) {
+  platform_ = start.platform;
+  for (std::size_t k = 0; k < legs_.size(); ++k) {
+    Leg& leg = legs_[k];
+    take_curvatures(start.curvatures[k], rod(leg).model(), rod(leg).work().y);
+    aim(leg);
+    leg.force.setZero();
+    leg.moment.setZero();
+    for (Tendon& tendon : leg.tendons) tendon.tension = 0;
+    leg.gap.setZero();
+  }
+  set_share(1);
+}
+
+ArmLegsStart ArmGroup::start_here(int parts) const {
+  ArmLegsStart start{platform_, {}};
+  for (const Leg& leg : legs_) start.curvatures.push_back(arm_curvatures(leg.own->arm, parts, leg.work));
+  return start;
+}
+
+void ArmGroup::keep_in_plane(Wrench& wrench) const {
+  if (robot_->is_planar) wrench.segment<3>(2).setZero();
+}
+template <class AnySquare>
+void ArmGroup::hold_in_plane(AnySquare& by_twist, const std::array<double, 2>& units) const {
+  if (!robot_->is_planar) return;
+  const Eigen::Index first = by_twist.rows() - 6;
+  for (const int i : {2, 3, 4}) {
+    by_twist.row(first + i).setZero();
+    by_twist.col(first + i).setZero();
+    by_twist(first + i, first + i) = units[i == 2 ? 0 : 1];
+  }
 }
 
 void ArmGroup::set_problem(std::span<const TendonCommand> commands, const Wrench& wrench,
@@ -111,6 +202,8 @@ void ArmGroup::carry_over_from(const ArmGroup& other) {
     const Leg& from = other.legs_[k];
     Leg& leg = legs_[k];
     carry_over(rod(from).model(), rod(from).work(), rod(leg).model(), rod(leg).work().y);
+    for (std::size_t i = 0; i < leg.pivots().size(); ++i)
+      rod(leg).work().y[at(leg.pivots()[i])] = rod(from).work().y[at(from.pivots()[i])];
     leg.force = from.force;
     leg.moment = from.moment;
     for (std::size_t i = 0; i < leg.tendons.size(); ++i) leg.tendons[i].tension = from.tendons[i].tension;
@@ -197,6 +290,7 @@ auto ArmGroup::needs(const Leg& leg) const -> Wrench {
   Wrench wrench;
   wrench.head<3>() = leg.force;
   wrench.tail<3>() = cross(b, leg.force) + moment_of(leg);
+  keep_in_plane(wrench);
   return wrench;
 }
 auto ArmGroup::push(int limb) const -> Wrench { return -needs(legs_[at(limb)]); }
@@ -248,6 +342,11 @@ void ArmGroup::evaluate(Leg& leg) {
   for (std::size_t i = 0; i < model.guides.size(); ++i)
     work.guide_tension[i] = tension(model.guides[i].tendon);
   sweep_back_with_hessian(model, work);
+  for (const int pivot : model.pivots) {  // it has no stiffness
+    const double y = work.y[at(pivot)];
+    work.energy -= 0.5 * y * y;
+    work.gradient[at(pivot)] -= y;
+  }
   measure_closure(leg);
   const Vec<double, 6> open = leg.off - (1 - share_) * leg.gap;
   error = worst_of(error, open.head<3>().norm() / size);
@@ -267,6 +366,7 @@ double ArmGroup::evaluate(bool) {
     balance_ -= needs(leg);
     unit = std::max(unit, force_unit(leg));
   }
+  keep_in_plane(balance_);
   error_ = worst_of(limb_error_, balance_.head<3>().norm() / unit);
   error_ = worst_of(error_, balance_.tail<3>().norm() / (unit * radius_));
   return error_;
@@ -302,16 +402,28 @@ bool ArmGroup::factor(Leg& leg) {
   const Frame mount = mount_of(leg);
   const Three3 tip = turn_of(work.frames.back()), turn = mount.R.matrix(), off = turn.transpose() * tip;
   const Vec<double, 6> open = leg.off - (1 - share_) * leg.gap;
-  leg.B.middleRows(taut, 3) = -tip * twists.topRows(3);
-  leg.r.segment(taut, 3) = -open.head<3>();
-  leg.X.setZero(all, 6);
-  leg.X.block(taut, 0, 3, 3).setIdentity();
-  leg.X.block(taut, 3, 3, 3) = -skew<double>(mount.p - platform_.p);
+  Matrix by_strain(6, n);
+  Eigen::Matrix<double, 6, 6> by_platform = Eigen::Matrix<double, 6, 6>::Zero();
+  by_strain.topRows(3) = -tip * twists.topRows(3);
+  by_platform.topLeftCorner<3, 3>().setIdentity();
+  by_platform.topRightCorner<3, 3>() = -skew<double>(mount.p - platform_.p);
   if (leg.own->is_clamped) {
     const Three3 whole = off.trace() * Three3::Identity();
-    leg.B.bottomRows(3) = -0.5 * (whole - off.transpose()) * twists.bottomRows(3);
-    leg.r.tail(3) = -open.tail<3>();
-    leg.X.block(taut + 3, 3, 3, 3) = 0.5 * (whole - off) * turn.transpose();
+    by_strain.bottomRows(3) = -0.5 * (whole - off.transpose()) * twists.bottomRows(3);
+    by_platform.bottomRightCorner<3, 3>() = 0.5 * (whole - off) * turn.transpose();
+  }
+  leg.X.setZero(all, 6);
+  for (int i = 0; i < leg.closed; ++i) {
+    const int component = leg.components[at(i)];
+    leg.B.row(taut + i) = by_strain.row(component);
+    leg.r[taut + i] = -open[component];
+    leg.X.row(taut + i) = by_platform.row(component);
+  }
+  for (int next = leg.forces(); const int pivot : model.pivots) {
+    leg.B(next, pivot) = 1;
+    leg.D(next, next) = -1;
+    leg.r[next] = 0;
+    ++next;
   }
   const int columns = all + held + 1, stride = (columns + strain::row - 1) / strain::row * strain::row;
   Matrix sides = Matrix::Zero(n, stride);
@@ -348,7 +460,9 @@ ArmGroup::Vector ArmGroup::units_of(const Leg& leg) const {
   Vector unit(leg.unknowns());
   for (const Tendon& tendon : leg.tendons)
     if (tendon.is_taut) unit[tendon.place] = std::sqrt(energy / (tendon.unit + tendon.compliance));
-  for (int i = 0; i < leg.closed; ++i) unit[leg.taut + i] = i < 3 ? energy / size : energy;
+  for (int i = 0; i < leg.closed; ++i)
+    unit[leg.taut + i] = leg.components[at(i)] < 3 ? energy / size : energy;
+  unit.tail(unit.size() - leg.forces()).setConstant(std::sqrt(energy));
   return unit / std::sqrt(energy);
 }
 
@@ -385,7 +499,9 @@ ArmGroup::Matrix ArmGroup::whole() const {
     whole.bottomRightCorner(6, 6) += curvature(leg);
     next += all;
   }
-  return unit.asDiagonal() * whole * unit.asDiagonal();
+  whole = (unit.asDiagonal() * whole * unit.asDiagonal()).eval();
+  hold_in_plane(whole, {1, 1});
+  return whole;
 }
 
 bool ArmGroup::plan() {
@@ -429,12 +545,14 @@ void ArmGroup::advance(Leg& leg, const Frame& after, Numbers by_input) {
   }
   std::vector<double>& y = rod(leg).work().y;
   for (std::size_t i = 0; i < y.size(); ++i) y[i] += step[static_cast<Eigen::Index>(i)];
-  leg.force += leg.du.segment(leg.taut, 3);
+  Vec<double, 6> change = Vec<double, 6>::Zero();
+  for (int i = 0; i < leg.closed; ++i) change[leg.components[at(i)]] = leg.du[leg.taut + i];
+  leg.force += change.head<3>();
   if (!leg.own->is_clamped) return;
   // The forces that make the moment kept their directions while the platform turned.
   const Three3 turned = (after.R.compose(leg.own->mount)).matrix().transpose() * mount_of(leg).R.matrix();
   leg.moment =
-      0.5 * (turned.trace() * Three3::Identity() - turned.transpose()) * (leg.moment + leg.du.tail(3));
+      0.5 * (turned.trace() * Three3::Identity() - turned.transpose()) * (leg.moment + change.tail<3>());
 }
 
 void ArmGroup::move_as_planned() {
@@ -447,7 +565,7 @@ int ArmGroup::unstable() const {
   const Matrix matrix = whole();
   if (!matrix.allFinite()) return -1;
   int count = 0;
-  for (const Leg& leg : legs_) count += leg.negative - leg.unknowns();
+  for (const Leg& leg : legs_) count += leg.negative - leg.forces();
   const Matrix even = 0.5 * (matrix + matrix.transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(even, Eigen::EigenvaluesOnly);
   for (const double value : found.eigenvalues()) count += value < 0;
@@ -462,6 +580,7 @@ bool ArmGroup::answers(Matrix& twists, Matrix& by_tendon) const {
   if (!(std::abs(lu.matrixLU().diagonal().tail(1)[0]) > 1e-13 * lu.maxPivot())) return false;
   Matrix sides = Matrix::Zero(unit.size(), feeds_ + 6);
   sides.bottomRightCorner(6, 6).setIdentity();
+  if (robot_->is_planar) sides.bottomRightCorner(6, 6).diagonal().segment(2, 3).setZero();
   Eigen::Index next = 0;
   for (const Leg& leg : legs_) {
     for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
@@ -531,11 +650,17 @@ bool ArmGroup::linearise() {
   if (!factor_limbs()) return false;
   stiffness_.setZero();
   residual_ = balance_;
+  double across = 0, around = 0;
   for (Leg& leg : legs_) {
+    const double length = leg.own->arm.length();
     if (!factor_compliance(leg)) return false;
     stiffness_ += curvature(leg) + leg.X.transpose() * leg.D_inverse * leg.X;
     residual_ -= leg.X.transpose() * (leg.D_inverse * leg.r);
+    across = std::max(across, force_unit(leg) / length);
+    around = std::max(around, rod(leg).model().energy_scale);
   }
+  hold_in_plane(stiffness_, {across, around});
+  keep_in_plane(residual_);
   return lu_.factor(stiffness_.data(), radius_);
 }
 
@@ -579,13 +704,16 @@ std::array<int, 2> ArmGroup::unstable_with_tip_held(int limb) const {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(leg.D, Eigen::EigenvaluesOnly);
   int stiff = 0;
   for (const double value : found.eigenvalues()) stiff += value < 0;
-  return {leg.negative - stiff, 0};
+  return {leg.negative - stiff + static_cast<int>(leg.pivots().size()), 0};
 }
 
 double ArmGroup::energy() const {
   double sum = 0;
-  for (const Leg& leg : legs_)
-    for (const double y : rod(leg).work().y) sum += 0.5 * y * y;
+  for (const Leg& leg : legs_) {
+    const std::vector<double>& strains = rod(leg).work().y;
+    for (const double y : strains) sum += 0.5 * y * y;
+    for (const int pivot : leg.pivots()) sum -= 0.5 * strains[at(pivot)] * strains[at(pivot)];
+  }
   return sum;
 }
 

@@ -7,6 +7,7 @@
 
 #include "kinematics/arms/arm_work.hpp"
 #include "robot/limb_group.hpp"
+#include "sinew/kinematics/arm_legs.hpp"
 #include "sinew/robot/arm_legs.hpp"
 
 namespace sinew::inline v1 {
@@ -27,6 +28,12 @@ class ArmGroup final : public LimbGroup<Spatial> {
   /// is closed: at 0 the rest is an equilibrium, at 1 all holds.
   void set_share(double share);
   double share() const { return share_; }
+  /// At rest with the platform elsewhere, free joints turned towards it: the gaps are those of there. Of a
+  /// group at rest.
+  void begin_at(const Frame& platform);
+  /// Near a shape, without forces, and no gap is left: legs turn at their free joints towards the platform.
+  void take(const ArmLegsStart& start);
+  ArmLegsStart start_here(int parts) const;
   /// The state of another group of the same robot, of another basis.
   void carry_over_from(const ArmGroup& other);
 
@@ -128,21 +135,33 @@ class ArmGroup final : public LimbGroup<Spatial> {
     strain::NodeLoad tip;                         ///< its weight
     Vec<double, 6> off = Vec<double, 6>::Zero();  ///< closure's error
     int taut = 0, closed = 3;                     ///< unknown forces: of tendons, of the closure
-    Matrix B, HB;                                 ///< their rows; H⁻¹Bᵀ
-    Matrix L, HL;                                 ///< of held tensions
-    Vector y0, r;                                 ///< −H⁻¹ gradient; what is missing with it
-    Matrix D, D_inverse, X;                       ///< their compliance; rows by the platform's twist
+    /// Which of force and moment the closure's unknowns are: 0 to 2 and 3 to 5.
+    std::array<int, 6> components{0, 1, 2, 3, 4, 5};
+    Matrix B, HB;            ///< rows of the unknowns, those of joints that turn freely last; H⁻¹Bᵀ
+    Matrix L, HL;            ///< of held tensions
+    Vector y0, r;            ///< −H⁻¹ gradient; what is missing with it
+    Matrix D, D_inverse, X;  ///< their compliance; rows by the platform's twist
     int negative = 0;
     Vector du;
 
-    int unknowns() const { return taut + closed; }
+    int forces() const { return taut + closed; }
+    /// A joint that turns freely has one more: what takes its coordinate's stiffness back.
+    int unknowns() const { return forces() + static_cast<int>(pivots().size()); }
+    std::span<const int> pivots() const { return rod(*this).model().pivots; }
     explicit Leg(const ArmLeg& leg) : own(&leg), work(leg.arm) {}
   };
   static strain::LoadedRod& rod(const Leg& leg) { return leg.work.impl().levels.front()->rod; }
   Frame mount_of(const Leg& leg) const;
   Vec3<double> moment_of(const Leg& leg) const;  ///< base axes
   Wrench needs(const Leg& leg) const;
+  void stand(Leg& leg, const ArmBasis& basis);
+  void aim(Leg& leg);
+  double way_to_platform(const Leg& leg) const;
   void measure_closure(Leg& leg);
+  void keep_in_plane(Wrench& wrench) const;
+  /// Of a robot in the plane: what moves it out is as stiff as `units` say, and coupled to nothing.
+  template <class AnySquare>
+  void hold_in_plane(AnySquare& by_twist, const std::array<double, 2>& units) const;
   void evaluate(Leg& leg);
   bool factor(Leg& leg);
   void advance(Leg& leg, const Frame& after, Numbers by_input);

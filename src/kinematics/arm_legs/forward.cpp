@@ -39,10 +39,10 @@ std::span<const Finer> finer_bases(const ArmOptions& options) {
 /// By more a step of Newton's method may not turn a leg or the platform [rad].
 constexpr double longest_turn = 0.6;
 
-/// Newton's method at one share of inputs and loads.
-/// @param is_held the platform stays where it is
-LegsFound iterate(ArmGroup& group, bool is_held, const ArmOptions& options, const StopToken& stop,
-                  int spent) {
+}  // namespace
+
+LegsFound iterate_legs(ArmGroup& group, bool is_held, const ArmOptions& options, const StopToken& stop,
+                       int spent) {
   LegsFound found;
   double before = std::numeric_limits<double>::infinity();
   bool is_slow = false;
@@ -82,6 +82,8 @@ LegsFound iterate(ArmGroup& group, bool is_held, const ArmOptions& options, cons
   }
 }
 
+namespace {
+
 /// All that `put` sets changes from a share of it to the whole, in steps that adapt; the group is at an
 /// equilibrium of the first share.
 /// @param put what acts, and where a held platform is, at a share of the way
@@ -96,7 +98,7 @@ LegsFound grow(ArmGroup& group, const Put& put, bool is_held, const ArmOptions& 
   for (int part = 1;; ++part) {
     const double share = std::min(1.0, reached + step);
     put(share);
-    const LegsFound found = iterate(group, is_held, options, stop, all.iterations);
+    const LegsFound found = iterate_legs(group, is_held, options, stop, all.iterations);
     all.iterations += found.iterations;
     all.residual = found.residual;
     if (found.status == Status::stopped || found.status == Status::iteration_limit) {
@@ -147,10 +149,8 @@ std::string_view words_for(Status status, bool is_held) {
 /// would be pressed on a straight way to it.
 LegsFound begin_at_rest(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
                         const StopToken& stop, double& reached) {
-  reached = 0;
   if (problem.held) group.set_problem(problem.commands, ArmGroup::Wrench::Zero(), problem.gravity);
-  LegsFound found = grow(
-      group, [&](double share) { group.set_share(share); }, false, options, stop, reached);
+  LegsFound found = grow_legs(group, options, stop, reached);
   if (!problem.held) return found;
   if (found.status != Status::converged) {
     reached = 0;
@@ -167,7 +167,8 @@ ArmGroup::Wrench missing_of(ArmGroup& group) {
   return group.wrench_missing();
 }
 
-/// By how much polynomials that are finer move the platform, or would if it were free [m].
+}  // namespace
+
 double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_held) {
   const auto &a = coarse.platform(), &b = fine.platform();
   if (!is_held) return (a.p - b.p).norm() + coarse.radius() * (a.R.inverse().compose(b.R)).log().norm();
@@ -178,7 +179,31 @@ double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_held) {
   return twist.head<3>().norm() + coarse.radius() * twist.tail<3>().norm();
 }
 
-}  // namespace
+LegsFound grow_legs(ArmGroup& group, const ArmOptions& options, const StopToken& stop, double& reached) {
+  reached = 0;
+  return grow(
+      group, [&](double share) { group.set_share(share); }, false, options, stop, reached);
+}
+
+std::vector<ArmBasis> bases_of(const ArmOptions& options) {
+  std::vector<ArmBasis> bases;
+  for (const Finer& finer : finer_bases(options))
+    bases.push_back({options.model, finer.order, finer.elements});
+  if (bases.empty()) bases.push_back({options.model, options.order, options.elements});
+  return bases;
+}
+
+bool prepare_levels(const ArmOptions& options, ArmLegsWorkspace& work) {
+  ArmLegsWorkspace::Impl& impl = work.impl();
+  const std::size_t count = bases_of(options).size();
+  if (impl.model == options.model && impl.order == options.order && impl.elements == options.elements &&
+      impl.levels.size() == count)
+    return true;
+  impl.levels.clear();
+  impl.levels.resize(count);
+  impl.model = options.model, impl.order = options.order, impl.elements = options.elements;
+  return false;
+}
 
 LegsProblem::LegsProblem(const ArmLegs& robot, std::span<const TendonCommand> tendons,
                          const ArmLegsLoad& load)
@@ -205,6 +230,11 @@ Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands
   if (!std::ranges::all_of(load.wrench, finite) ||
       (load.gravity && !std::ranges::all_of(*load.gravity, finite)))
     return bad("a load is not finite");
+  if (robot.is_planar) {
+    const auto& gravity = load.gravity.value_or(robot.gravity);
+    if (load.wrench[2] != 0 || load.wrench[3] != 0 || load.wrench[4] != 0 || gravity[2] != 0)
+      return bad("a load acts out of the plane, in which alone the robot moves: leave that part of it out");
+  }
   if (options.balance != ArmBalance::energy)
     return {Status::unsupported, 0, 0,
             FixedText<240>("legs balance by energy alone in this version: leave balance out")};
@@ -226,6 +256,12 @@ void write_legs_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState&
     std::copy(wrench.begin(), wrench.end(), state.tip_loads[at(k)].begin());
   }
   state.energy = group.potential();
+}
+
+bool leaves_plane(const ArmLegs& robot, const SE3<double>& pose) {
+  constexpr double rounding = 1e-12;
+  return robot.is_planar && (std::abs(pose.p[2]) > rounding * legs_size(robot) ||
+                             std::abs(pose.R.v[0]) > rounding || std::abs(pose.R.v[1]) > rounding);
 }
 
 double legs_size(const ArmLegs& robot) {
@@ -310,26 +346,17 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
                 ArmLegsWorkspace& work, LegsEnd end) {
   ArmLegsWorkspace::Impl& impl = work.impl();
   const bool is_held = problem.held.has_value();
-  const auto bases = finer_bases(options);
-  const std::size_t count = std::max<std::size_t>(1, bases.size());
-  const bool is_same = impl.model == options.model && impl.order == options.order &&
-                       impl.elements == options.elements && impl.levels.size() == count;
-  const bool goes_on = options.from_last && is_same && impl.has_last();
-  if (!is_same) {
-    impl.levels.clear();
-    impl.levels.resize(count);
-    impl.model = options.model, impl.order = options.order, impl.elements = options.elements;
-  }
+  const auto bases = bases_of(options);
+  const bool is_same = prepare_levels(options, work),
+             goes_on = options.from_last && is_same && impl.has_last();
   ArmLegsState& state = impl.state;
   state = {};
   const auto put = [&](ArmGroup& group) {
     group.set_problem(problem.commands, problem.wrench, problem.gravity);
   };
   const auto ready = [&](std::size_t level) -> ArmGroup& {
-    ArmBasis basis{options.model, options.order, options.elements};
-    if (!bases.empty()) basis.order = bases[level].order, basis.elements = bases[level].elements;
     // Anew: the rest of a group is where its shapes are those at rest.
-    impl.levels[level] = std::make_unique<ArmGroup>(robot, basis);
+    impl.levels[level] = std::make_unique<ArmGroup>(robot, bases[level]);
     put(*impl.levels[level]);
     return *impl.levels[level];
   };
@@ -369,7 +396,7 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
     if (is_there) put(finer);
     finer.carry_over_from(*group);
     finer.set_share(1);
-    LegsFound again = iterate(finer, is_held, options, work.stop, found.iterations);
+    LegsFound again = iterate_legs(finer, is_held, options, work.stop, found.iterations);
     if (again.status == Status::converged &&
         (!finer.factor_limbs() || (is_held ? finer.unstable_held() : finer.unstable()) != 0))
       again.status = Status::unstable;
@@ -437,6 +464,8 @@ ArmLegsHeld arm_legs_hold(const ArmLegs& robot, const SE3<double>& pose,
   Report misfit = legs_misfit(robot, commands, load, options, work);
   if (misfit.ok() && !(pose.p.allFinite() && pose.R.matrix().allFinite()))
     misfit = {Status::bad_input, 0, 0, FixedText<240>("the pose is not finite")};
+  if (misfit.ok() && leaves_plane(robot, pose))
+    misfit = {Status::bad_input, 0, 0, FixedText<240>("the pose is out of the plane")};
   if (!misfit.ok()) {
     state = {};
     state.report = misfit;
@@ -453,7 +482,7 @@ ArmLegsHeld arm_legs_hold(const ArmLegs& robot, const SE3<double>& pose,
   return held;
 }
 
-ArmLegsRates arm_legs_rates(const ArmLegs&, ArmLegsWorkspace& work) {
+ArmLegsRates arm_legs_rates(const ArmLegs& robot, ArmLegsWorkspace& work) {
   ArmLegsWorkspace::Impl& impl = work.impl();
   ArmLegsRates rates;
   if (!impl.has_last()) return rates;
@@ -474,7 +503,8 @@ ArmLegsRates arm_legs_rates(const ArmLegs&, ArmLegsWorkspace& work) {
   if (!rates.has_stiffness) return rates;
   const auto stiffness = group.stiffness();
   for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) rates.stiffness[at(6 * i + j)] = stiffness(i, j);
+    for (int j = 0; j < 6; ++j)
+      if (!robot.is_planar || i != j || i < 2 || i > 4) rates.stiffness[at(6 * i + j)] = stiffness(i, j);
   return rates;
 }
 
@@ -486,6 +516,7 @@ ArmLegsLoadPath arm_legs_follow_load(const ArmLegs& robot, const std::array<doub
   ArmGroup::Wrench load;
   std::copy(direction.begin(), direction.end(), load.begin());
   if (!impl.has_last() || !load.allFinite() || load.isZero(0) || !(limit > 0)) return path;
+  if (robot.is_planar && !load.segment<3>(2).isZero(0)) return path;
   ArmGroup& group = impl.group();
   group.evaluate();
   if (!group.linearise()) return path;

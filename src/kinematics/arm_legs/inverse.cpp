@@ -36,6 +36,14 @@ class PulledLegs final : public PulledBody {
   LegsWalk walk_;
 };
 
+/// In the plane bending about y alone counts.
+Arm bending_as_it_may(const ArmLegs& robot, const ArmLeg& leg) {
+  Arm arm = leg.arm;
+  if (robot.is_planar)
+    for (ArmSection& section : arm.sections) section.start.bending_x = section.start.bending_y;
+  return arm;
+}
+
 }  // namespace
 
 ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target, const ArmLegsLoad& load,
@@ -51,6 +59,14 @@ ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target, c
   Report misfit = legs_misfit(robot, loose, load, options.arm, work);
   if (const auto text = target_misfit(target); misfit.ok() && !text.empty())
     misfit = {Status::bad_input, 0, 0, FixedText<240>(text)};
+  if (misfit.ok() && robot.is_planar) {
+    if (target.direction)
+      misfit = {Status::bad_input, 0, 0,
+                FixedText<240>("in the plane a platform has no z axis to point: give a quaternion about z")};
+    else if ((target.position && (*target.position)[2] != 0) ||
+             (target.quaternion && leaves_plane(robot, SE3<double>::from({{0, 0, 0}, *target.quaternion}))))
+      misfit = {Status::bad_input, 0, 0, FixedText<240>("the target is out of the plane")};
+  }
   if (misfit.ok() && loose.empty())
     misfit = {Status::bad_input, 0, 0, FixedText<240>("the legs have no tendons that could move it")};
   if (!misfit.ok()) {
@@ -61,7 +77,7 @@ ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target, c
   const double length = legs_size(robot);
   double usual = 1e300;
   for (const ArmLeg& leg : robot.legs)
-    if (!leg.arm.tendons.empty()) usual = std::min(usual, usual_tension(leg.arm));
+    if (!leg.arm.tendons.empty()) usual = std::min(usual, usual_tension(bending_as_it_may(robot, leg)));
   TensionSearch search{.tendons = loose.size(),
                        .length = length,
                        .usual = usual,

@@ -46,6 +46,19 @@ struct LegsFound {
 Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands, const ArmLegsLoad& load,
                    const ArmOptions& options, const ArmLegsWorkspace& work);
 
+/// Newton's method at one share of inputs and loads.
+/// @param is_held the platform stays where it is; @param spent of options' iterations
+LegsFound iterate_legs(ArmGroup& group, bool is_held, const ArmOptions& options, const StopToken& stop,
+                       int spent);
+/// From the rest, or where the group is at share 0; the platform is free.
+LegsFound grow_legs(ArmGroup& group, const ArmOptions& options, const StopToken& stop, double& reached);
+/// The bases of the options' polynomials, coarse to fine.
+std::vector<ArmBasis> bases_of(const ArmOptions& options);
+/// By how much polynomials that are finer move the platform, or would if it were free [m].
+double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_held);
+/// Makes room for these options; false where the workspace had groups of others.
+bool prepare_levels(const ArmOptions& options, ArmLegsWorkspace& work);
+
 /// How a search for an equilibrium may end.
 enum class LegsEnd {
   anywhere,    ///< where the last equilibrium leads to none, at what the rest grows into
@@ -95,6 +108,9 @@ class LegsWalk {
 
 /// Of the group, but for the report, `stable`, `resolution` and `reached`.
 void write_legs_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState& state);
+
+/// Whether the robot is one in the plane and the pose is not.
+bool leaves_plane(const ArmLegs& robot, const SE3<double>& pose);
 
 /// The longest leg [m].
 double legs_size(const ArmLegs& robot);

@@ -30,13 +30,13 @@ class MeasuredLegs final : public LoadedBody {
     if (!rates.regular) return false;
     with.add_tendons(measured_, state, rates.answers_by_wrench);
     if (measured_.position)
-      for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t i = 0; i < (robot_.is_planar ? 2U : 3U); ++i)
         with.add((*measured_.position)[i] - state.platform.p[static_cast<int>(i)],
                  rates.compliance.data() + 6 * i, measured_.position_deviation);
     if (!measured_.quaternion) return true;
     const SE3<double> seen = SE3<double>::from({{0, 0, 0}, *measured_.quaternion});
     const auto turn = twist_between(state.platform, seen);
-    for (std::size_t i = 3; i < 6; ++i)
+    for (std::size_t i = robot_.is_planar ? 5 : 3; i < 6; ++i)
       with.add(turn[static_cast<int>(i)], rates.compliance.data() + 6 * i, measured_.angle_deviation);
     return true;
   }
@@ -56,8 +56,10 @@ ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& mea
                              const ArmLegsLoad& load, bool force_alone, const ArmOptions& options,
                              ArmLegsWorkspace& work) {
   ArmLegsSensed sensed;
-  const std::size_t unknowns = force_alone ? 3 : 6,
-                    others = (measured.position ? 3U : 0U) + (measured.quaternion ? 3U : 0U);
+  const bool is_planar = robot.is_planar;
+  const std::size_t forces = is_planar ? 2 : 3, turns = is_planar ? 1 : 3,
+                    unknowns = force_alone ? forces : forces + turns,
+                    others = (measured.position ? forces : 0U) + (measured.quaternion ? turns : 0U);
   Report misfit = legs_misfit(robot, measured.held, load, options, work);
   const auto bad = [&](std::string_view words) {
     if (misfit.ok() && !words.empty()) misfit = {Status::bad_input, 0, 0, FixedText<240>(words)};
@@ -73,6 +75,11 @@ ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& mea
     for (const double x : *measured.quaternion) square += x * x;
     if (!(square > 0 && std::isfinite(square))) bad("the quaternion has no length, or is not finite");
   }
+  if (misfit.ok() && is_planar && measured.position && (*measured.position)[2] != 0)
+    bad("the position is out of the plane");
+  if (misfit.ok() && measured.quaternion &&
+      leaves_plane(robot, SE3<double>::from({{0, 0, 0}, *measured.quaternion})))
+    bad("the quaternion turns out of the plane");
   if (!misfit.ok()) {
     sensed.report = misfit;
     sensed.state = work.impl().state;
@@ -83,6 +90,8 @@ ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& mea
   for (const ArmLeg& leg : robot.legs) usual += usual_force(leg.arm);
   WrenchSearch search{.first = load.wrench,
                       .unknowns = unknowns,
+                      .components = is_planar ? std::array<std::size_t, 6>{0, 1, 5, 0, 0, 0}
+                                              : std::array<std::size_t, 6>{0, 1, 2, 3, 4, 5},
                       .length = legs_size(robot),
                       .usual = usual,
                       .from_last = options.from_last,

@@ -82,6 +82,8 @@ std::vector<ArmLegsState> arm_legs_track(const ArmLegs& robot, std::span<const A
       misfit = {Status::bad_input, 0, 0, FixedText<240>("its way has less than one division")};
     if (misfit.ok() && step.pose && !(step.pose->p.allFinite() && step.pose->R.matrix().allFinite()))
       misfit = {Status::bad_input, 0, 0, FixedText<240>("its pose is not finite")};
+    if (misfit.ok() && step.pose && leaves_plane(robot, *step.pose))
+      misfit = {Status::bad_input, 0, 0, FixedText<240>("its pose is out of the plane")};
     if (misfit.ok()) continue;
     misfit.message = FixedText<240>(fmt::format("step {}: {}", k + 1, misfit.message.view()));
     impl.state = {};

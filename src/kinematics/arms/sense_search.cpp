@@ -66,16 +66,22 @@ FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {
   sensed.wrench = search.first;
   const std::size_t unknowns = search.unknowns;
   // Moments count by the length.
-  const auto scale = [&](std::size_t k) { return k < 3 ? 1.0 : search.length; };
-  std::array<double, 6> wrench = search.first, step{};
+  const auto& which = search.components;
+  const auto scale = [&](std::size_t k) { return which[k] < 3 ? 1.0 : search.length; };
+  std::array<double, 6> wrench = search.first, step{};  // a step is of the unknowns
   double before = 1e300, radius = search.usual;
   std::vector<double> normal, side;
   const auto take = [&](double sign) {
-    for (std::size_t k = 0; k < unknowns; ++k) wrench[k] += sign * step[k];
+    for (std::size_t k = 0; k < unknowns; ++k) wrench[which[k]] += sign * step[k];
   };
-  const auto size_of = [&](const std::array<double, 6>& any) {
+  const auto step_size = [&] {
     double size = 0;
-    for (std::size_t k = 0; k < unknowns; ++k) size = std::max(size, std::abs(any[k]) / scale(k));
+    for (std::size_t k = 0; k < unknowns; ++k) size = std::max(size, std::abs(step[k]) / scale(k));
+    return size;
+  };
+  const auto wrench_size = [&] {
+    double size = 0;
+    for (std::size_t k = 0; k < unknowns; ++k) size = std::max(size, std::abs(wrench[which[k]]) / scale(k));
     return size;
   };
   const auto with_covariance = [&] {
@@ -94,7 +100,7 @@ FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {
     sensed.condition = std::sqrt(values.back() / values.front());
     for (std::size_t i = 0; i < unknowns; ++i)
       for (std::size_t j = 0; j < unknowns; ++j)
-        sensed.covariance[i * 6 + j] = inverse[i * unknowns + j] * scale(i) * scale(j);
+        sensed.covariance[which[i] * 6 + which[j]] = inverse[i * unknowns + j] * scale(i) * scale(j);
     return sensed;
   };
   bool from_last = search.from_last;
@@ -124,8 +130,8 @@ FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {
     }
     if (!(misfit < before * (1 + 1e-9)) && round > 0) {  // a shorter one from where it was
       take(-1);
-      radius = 0.25 * size_of(step);
-      if (radius < 1e-7 * std::max(size_of(wrench), 1e-6)) {  // as near as rounding lets it
+      radius = 0.25 * step_size();
+      if (radius < 1e-7 * std::max(wrench_size(), 1e-6)) {  // as near as rounding lets it
         sensed.report = body.load(wrench, from_last);
         sensed.report.iterations = round;
         return with_covariance();
@@ -134,20 +140,20 @@ FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {
       take(1);
       continue;
     }
-    if (round > 0 && size_of(step) > 0.5 * radius) radius *= 3;
+    if (round > 0 && step_size() > 0.5 * radius) radius *= 3;
     before = misfit;
     normal.assign(unknowns * unknowns, 0.0);
     side.assign(unknowns, 0.0);
     for (std::size_t i = 0; i < unknowns; ++i)
       for (std::size_t r = 0; r < off.size(); ++r) {
-        side[i] += rows[r * 6 + i] * scale(i) * off[r];
+        side[i] += rows[r * 6 + which[i]] * scale(i) * off[r];
         for (std::size_t j = 0; j < unknowns; ++j)
-          normal[i * unknowns + j] += rows[r * 6 + i] * scale(i) * rows[r * 6 + j] * scale(j);
+          normal[i * unknowns + j] += rows[r * 6 + which[i]] * scale(i) * rows[r * 6 + which[j]] * scale(j);
       }
     sensed.misfit = std::sqrt(misfit / static_cast<double>(off.size()));
     sensed.wrench = wrench;
     step = within(normal, side, radius, scale);
-    if (size_of(step) < 1e-9 * std::max(size_of(wrench), 1e-6)) return with_covariance();
+    if (step_size() < 1e-9 * std::max(wrench_size(), 1e-6)) return with_covariance();
     take(1);
   }
   sensed.report = {Status::iteration_limit, sensed.report.iterations, sensed.report.residual,

@@ -48,8 +48,10 @@ class LoadedBody {
 struct WrenchSearch {
   std::array<double, 6> first{};  ///< wrench from which it begins [N, N m]
   std::size_t unknowns = 6;       ///< 3: the force alone
-  double length = 0;              ///< by which moments count [m]
-  double usual = 0;               ///< force that bends much [N]: further no step goes at first
+  /// Which components of the wrench they are; moments come last.
+  std::array<std::size_t, 6> components{0, 1, 2, 3, 4, 5};
+  double length = 0;  ///< by which moments count [m]
+  double usual = 0;   ///< force that bends much [N]: further no step goes at first
   bool from_last = false;
   int most_work = 1 << 30;  ///< equilibria and their iterations
 };

@@ -28,7 +28,8 @@ SE3<double> pose_of(const strain::RodFrame& frame) {
 strain::Six strain_at(const strain::RodModel& model, const strain::RodWork& work, double place, int& near) {
   const int count = static_cast<int>(model.elements.size());
   while (near > 0 && model.places[at(near)] >= place) --near;
-  while (near + 1 < count && model.places[at(near + 1)] < place) ++near;
+  while (near + 1 < count && (model.places[at(near + 1)] < place || model.elements[at(near)].is_pivot))
+    ++near;
   const strain::Element& element = model.elements[at(near)];
   strain::Six xi = element.rest[0];
   if (element.points == 1 || !(element.to > element.from)) return xi;  // a rigid link
@@ -70,7 +71,7 @@ std::vector<SE3<double>> arm_frames(const Arm&, std::span<const double> places, 
     }
     strain_at(entry.model, entry.rod.work(), place, near);
     if (near + 1 < static_cast<int>(entry.model.elements.size()) &&
-        entry.model.elements[at(near + 1)].points == 1 &&
+        entry.model.elements[at(near + 1)].points == 1 && !entry.model.elements[at(near + 1)].is_pivot &&
         place > entry.model.places[at(near + 1)] - 1e-12 * entry.model.places.back()) {
       poses.push_back(pose_of(frames[at(near + 2)]));  // a joint at the place has turned
       continue;

@@ -21,24 +21,35 @@ std::array<double, 3> angle_to(Curvatures curvatures, double length, double plac
   return angle;
 }
 
+/// Without a bar on a joint that turns freely after the last section [m].
+double backbone_of(const strain::RodModel& model) {
+  const std::size_t count = model.elements.size();
+  const bool has_bar =
+      count > 1 && model.elements[count - 1].points == 0 && model.elements[count - 2].is_pivot;
+  return model.places[has_bar ? count - 1 : count];
+}
+
 /// What a joint stands for: halfway to those beside it.
 std::array<double, 2> share_of(const strain::RodModel& model, int joint) {
-  const auto is_joint = [&](int e) { return model.elements[at(e)].points == 1; };
+  const auto is_joint = [&](int e) {
+    return model.elements[at(e)].points == 1 && !model.elements[at(e)].is_pivot;
+  };
   const int count = static_cast<int>(model.elements.size());
   int before = joint - 1, after = joint + 1;
   while (before >= 0 && !is_joint(before)) --before;
   while (after < count && !is_joint(after)) ++after;
   const double here = model.places[at(joint)];
   return {before < 0 ? 0 : (model.places[at(before)] + here) / 2,
-          after == count ? model.places.back() : (here + model.places[at(after)]) / 2};
+          after == count ? backbone_of(model) : (here + model.places[at(after)]) / 2};
 }
 
 }  // namespace
 
 void take_curvatures(Curvatures curvatures, const strain::RodModel& model, std::vector<double>& y) {
   std::fill(y.begin(), y.end(), 0.0);
-  const double length = model.places.back();
+  const double length = backbone_of(model);
   for (const strain::Piece& piece : model.pieces) {
+    if (model.elements[at(model.spans[at(piece.first_span)].first_element)].is_pivot) continue;
     double* own = y.data() + piece.first;
     const strain::Span& last = model.spans[at(piece.first_span + piece.spans - 1)];
     for (int e = model.spans[at(piece.first_span)].first_element; e < last.first_element + last.elements;

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
 #include "io/reader.hpp"
+#include "leg/space.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/sampler.hpp"
 #include "sinew/base/export.hpp"
@@ -27,12 +29,72 @@ std::vector<std::size_t> tendon_counts_of(const ArmLegs& robot) {
 }
 
 constexpr std::string_view not_yet = "is not available of legs of sections in this version; leave it out";
-constexpr Lack lacking[] = {
-    {"following", not_yet}, {"distributed", not_yet}, {"distributed_following", not_yet},
-    {"loads", not_yet},     {"all", not_yet},         {"balance", not_yet}};
+constexpr Lack lacking[] = {{"following", not_yet},
+                            {"distributed", not_yet},
+                            {"distributed_following", not_yet},
+                            {"loads", not_yet},
+                            {"balance", not_yet}};
+
+/// Numbers of a robot in space, or of one in the plane those that it has.
+/// @{
+AnyPose pose_of(const ArmLegs& robot, const SE3<double>& pose) {
+  if (!robot.is_planar) return spatial_pose(pose);
+  return PlanarPose{pose.p[0], pose.p[1], 2 * std::atan2(pose.R.v[2], pose.R.w)};
+}
+std::span<const std::size_t> freedoms_of(const ArmLegs& robot) {
+  static constexpr std::array<std::size_t, 6> all{0, 1, 2, 3, 4, 5};
+  static constexpr std::array<std::size_t, 3> flat{0, 1, 5};
+  return robot.is_planar ? std::span<const std::size_t>(flat) : std::span<const std::size_t>(all);
+}
+Value wrench_value(const ArmLegs& robot, const std::array<double, 6>& wrench) {
+  std::vector<double> numbers;
+  for (const std::size_t k : freedoms_of(robot)) numbers.push_back(wrench[k]);
+  return numbers;
+}
+Value point_value(const ArmLegs& robot, const Vec3<double>& point) {
+  return robot.is_planar ? Value(Vec2<double>(point.head<2>())) : Value(point);
+}
+/// @param by_rows, by_columns whether rows, or columns, are six of the platform's freedoms or wrench
+Value matrix_value(const ArmLegs& robot, const double* numbers, std::size_t rows, std::size_t columns,
+                   bool by_rows, bool by_columns) {
+  std::vector<std::size_t> of_rows(rows), of_columns(columns);
+  std::iota(of_rows.begin(), of_rows.end(), std::size_t{0});
+  std::iota(of_columns.begin(), of_columns.end(), std::size_t{0});
+  const auto freedoms = freedoms_of(robot);
+  if (by_rows) of_rows.assign(freedoms.begin(), freedoms.end());
+  if (by_columns) of_columns.assign(freedoms.begin(), freedoms.end());
+  std::vector<double> kept;
+  for (const std::size_t i : of_rows)
+    for (const std::size_t j : of_columns) kept.push_back(numbers[i * columns + j]);
+  return Value(MatrixView(kept.data(), static_cast<Eigen::Index>(of_rows.size()),
+                          static_cast<Eigen::Index>(of_columns.size())));
+}
+/// @}
+
+std::array<double, 6> read_wrench_of(const ArmLegs& robot, const Reader& list) {
+  std::array<double, 6> wrench{};
+  const auto take = [&](const auto& numbers) {
+    for (int i = 0; const std::size_t k : freedoms_of(robot)) wrench[k] = numbers[i++];
+  };
+  if (robot.is_planar)
+    take(read_wrench<Planar>(list));
+  else
+    take(read_wrench<Spatial>(list));
+  return wrench;
+}
+SE3<double> read_pose_of(const ArmLegs& robot, Reader pose) {
+  return SE3<double>::from(robot.is_planar ? in_space(read_planar_pose(std::move(pose)))
+                                           : read_spatial_pose(std::move(pose)));
+}
+std::array<double, 3> read_position_of(const ArmLegs& robot, const Reader& position) {
+  if (!robot.is_planar) return position.array<3>(Dimension::length, Range::place());
+  const auto [x, y] = position.array<2>(Dimension::length, Range::place());
+  return {x, y, 0};
+}
 
 void put_legs_shape(Context& context, const ArmLegs& robot, const SE3<double>& platform, int samples) {
   ArmPicture picture;
+  picture.is_planar = robot.is_planar;
   for (std::size_t k = 0; k < robot.legs.size(); ++k) {
     double around = 0;  // where a disc's size is not known: its tendons run within it
     for (const ArmTendon& tendon : robot.legs[k].arm.tendons)
@@ -40,26 +102,27 @@ void put_legs_shape(Context& context, const ArmLegs& robot, const SE3<double>& p
         around = std::max({around, 1.15 * route.start_radius, 1.15 * route.end_radius});
     picture.add(robot.legs[k].arm, arm_legs_shape(*context.work.arm_legs, k), samples, around);
   }
+  const int dimension = robot.is_planar ? 2 : 3;
   std::vector<double> base, plate;
   for (const ArmLeg& leg : robot.legs) {
     const Vec3<double> corner = platform.p + platform.rotate(leg.platform_point);
-    base.insert(base.end(), leg.base.p.begin(), leg.base.p.end());
-    plate.insert(plate.end(), corner.begin(), corner.end());
+    base.insert(base.end(), leg.base.p.begin(), leg.base.p.begin() + dimension);
+    plate.insert(plate.end(), corner.begin(), corner.begin() + dimension);
   }
   Value& answer = context.answer;
-  answer["base"] = Value(base, 3);
-  answer["platform"] = Value(plate, 3);
+  answer["base"] = Value(base, static_cast<std::size_t>(dimension));
+  answer["platform"] = Value(plate, static_cast<std::size_t>(dimension));
   answer["backbones"] = std::move(picture.backbones);
   answer["curvatures"] = std::move(picture.curvatures);
   answer["tendons"] = std::move(picture.tendons);
-  answer["discs"] = std::move(picture.discs);
-  answer["frames"] = Value::list({pose_value(AnyPose(spatial_pose(platform)))});
+  if (!robot.is_planar) answer["discs"] = std::move(picture.discs);
+  answer["frames"] = Value::list({pose_value(pose_of(robot, platform))});
 }
 
 /// Numbers of an equilibrium, of the answer or of a row of it.
 void put_legs_numbers(Value& answer, const ArmLegs& robot, const ArmLegsState& state) {
   const auto counts = tendon_counts_of(robot);
-  answer["pose"] = pose_value(AnyPose(spatial_pose(state.platform)));
+  answer["pose"] = pose_value(pose_of(robot, state.platform));
   answer["tensions"] = by_end_section(counts, state.tensions);
   answer["changes"] = by_end_section(counts, state.changes);
   answer["slack"] = by_end_section(counts, state.slack);
@@ -77,7 +140,10 @@ void put_legs_state(Context& context, const ArmLegs& robot, const ArmLegsState& 
   put_legs_numbers(answer, robot, state);
   Value legs = Value::list();
   for (const auto& load : state.tip_loads)
-    legs.push_back({{"force", {load[0], load[1], load[2]}}, {"moment", {load[3], load[4], load[5]}}});
+    if (robot.is_planar)
+      legs.push_back({{"force", {load[0], load[1]}}, {"moment", {0.0, 0.0, load[5]}}});
+    else
+      legs.push_back({{"force", {load[0], load[1], load[2]}}, {"moment", {load[3], load[4], load[5]}}});
   answer["legs"] = std::move(legs);
   answer["stable"] = state.stable;
   answer["reached"] = state.reached;
@@ -93,15 +159,10 @@ ArmOptions read_legs_options(Context& context) {
 }
 
 /// @param load what holds where they are not given
-ArmLegsLoad read_legs_load(Reader& place, ArmLegsLoad load = {}) {
-  if (const auto wrench = place.optional("wrench")) {
-    const auto numbers = read_wrench<Spatial>(*wrench);
-    std::copy(numbers.begin(), numbers.end(), load.wrench.begin());
-  }
-  if (const auto gravity = place.optional("gravity")) {
-    const Vec3<double> g = read_gravity(*gravity);
-    load.gravity = {g[0], g[1], g[2]};
-  }
+ArmLegsLoad read_legs_load(const ArmLegs& robot, Reader& place, ArmLegsLoad load = {}) {
+  if (const auto wrench = place.optional("wrench")) load.wrench = read_wrench_of(robot, *wrench);
+  if (const auto gravity = place.optional("gravity"))
+    load.gravity = read_gravity_of(*gravity, robot.is_planar);
   return load;
 }
 
@@ -134,62 +195,141 @@ void put_legs_wants(Context& context, const ArmLegs& robot, const ArmLegsState& 
     context.add_message("the equilibrium is a fold: it has no rates");
     return;
   }
-  const auto count = static_cast<Eigen::Index>(robot.tendons());
+  const std::size_t count = robot.tendons();
   Value& answer = context.answer;
   if (velocity) {
-    answer["U"] = Value(MatrixView(rates.J.data(), 6, count));
-    answer["answer_rates"] = Value(MatrixView(rates.answers.data(), count, count));
+    answer["U"] = matrix_value(robot, rates.J.data(), 6, count, true, false);
+    answer["answer_rates"] = matrix_value(robot, rates.answers.data(), count, count, false, false);
   }
   if (!stiffness) return;
   if (rates.has_stiffness)
-    answer["stiffness"] = Value(MatrixView(rates.stiffness.data(), 6, 6));
+    answer["stiffness"] = matrix_value(robot, rates.stiffness.data(), 6, 6, true, true);
   else
     context.add_message("the stiffness is not finite: a leg that does not stretch is straight");
-  answer["compliance"] = Value(MatrixView(rates.compliance.data(), 6, 6));
-  answer["answers_by_wrench"] = Value(MatrixView(rates.answers_by_wrench.data(), count, 6));
+  answer["compliance"] = matrix_value(robot, rates.compliance.data(), 6, 6, true, true);
+  answer["answers_by_wrench"] = matrix_value(robot, rates.answers_by_wrench.data(), count, 6, false, true);
+}
+
+/// A load that grows, as `until` asks.
+struct LegsUntil {
+  std::array<double, 6> direction{};
+  double limit = 0;
+};
+std::optional<LegsUntil> read_legs_until(Context& context, const ArmLegs& robot) {
+  const auto take = [&](const auto& until) -> std::optional<LegsUntil> {
+    if (!until) return {};
+    LegsUntil asked{.limit = until->limit};
+    for (int i = 0; const std::size_t k : freedoms_of(robot)) asked.direction[k] = until->direction[i++];
+    return asked;
+  };
+  return robot.is_planar ? take(read_until<Planar>(context)) : take(read_until<Spatial>(context));
 }
 
 struct LegsForward {
   ArmOptions options;
   std::vector<TendonCommand> commands;
   ArmLegsLoad load;
-  std::optional<Until<Spatial>> until;
+  std::optional<LegsUntil> until;
+  std::optional<ArmLegsStart> start;  ///< a shape
+  bool wants_all = false;
   LegsWanted wanted;
 };
 
+/// `start`: `last`, or a solution's pose and curvatures.
+std::optional<ArmLegsStart> read_legs_start(Context& context, ArmOptions& options) {
+  constexpr std::size_t most_parts = 1000;
+  const ArmLegs& robot = *context.robot.arm_legs();
+  const Node* given = context.query.node()->find("start");
+  if (!given || given->kind != Node::Kind::map) {
+    read_arm_start(context, options);
+    return {};
+  }
+  options.from_last = false;
+  Reader start = context.query.required("start");
+  ArmLegsStart shape{read_pose_of(robot, start.required("pose", "where the platform is")), {}};
+  const Reader curvatures =
+      start.required("curvatures", "of each leg the mean curvatures of equal parts, as `all` tells them");
+  for (const Reader& leg : curvatures.items(robot.legs.size())) {
+    const auto parts = leg.items();
+    if (parts.empty() || parts.size() > most_parts)
+      leg.fail("wrong_length",
+               fmt::format("a shape has the mean curvatures of 1 to {} equal parts of the leg, found {}",
+                           most_parts, parts.size()));
+    auto& of_leg = shape.curvatures.emplace_back();
+    for (std::size_t k = 0; k < std::min(parts.size(), most_parts); ++k)
+      of_leg.push_back(parts[k].array<3>(Dimension::curvature, {.low = -1e6, .high = 1e6}));
+  }
+  start.close();
+  return shape;
+}
+
 LegsForward read_legs(Context& context) {
+  const ArmLegs& robot = *context.robot.arm_legs();
   LegsForward asked;
   asked.options = read_legs_options(context);
-  asked.commands = read_arm_commands(tendon_counts_of(*context.robot.arm_legs()), context.query);
-  asked.load = read_legs_load(context.query);
-  read_arm_start(context, asked.options);
-  if (context.ask == Ask::forward) asked.until = read_until<Spatial>(context);
+  asked.commands = read_arm_commands(tendon_counts_of(robot), context.query);
+  asked.load = read_legs_load(robot, context.query);
+  asked.start = read_legs_start(context, asked.options);
+  if (context.ask == Ask::forward) {
+    asked.until = read_legs_until(context, robot);
+    if (const auto all = context.query.optional("all")) {
+      asked.wants_all = all->boolean();
+      if (asked.wants_all && asked.until)
+        all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
+    }
+  }
   asked.wanted = read_legs_wants(context);
   return asked;
 }
 
+void put_legs_solutions(Context& context, const ArmLegs& robot, const LegsForward& asked) {
+  constexpr int starts = 30;
+  Value solutions = Value::list();
+  const std::vector<ArmLegsEquilibrium> found =
+      arm_legs_equilibria(robot, asked.commands, asked.load, asked.options, starts, *context.work.arm_legs);
+  for (const ArmLegsEquilibrium& one : found) {
+    if (one.start.curvatures.empty()) continue;  // there is none
+    Value solution = Value::map();
+    put_legs_numbers(solution, robot, one.state);
+    solution["stable"] = one.state.stable;
+    solution["residual"] = one.state.report.residual;
+    Value legs = Value::list();
+    for (const auto& leg : one.start.curvatures) {
+      std::vector<double> numbers;
+      for (const auto& part : leg) numbers.insert(numbers.end(), part.begin(), part.end());
+      legs.push_back(Value(numbers, 3));
+    }
+    solution["curvatures"] = std::move(legs);
+    solutions.push_back(std::move(solution));
+  }
+  put_solutions(context, context.work.stop, std::move(solutions));
+}
+
 void answer_legs(Context& context, const LegsForward& asked) {
-  const auto& [options, commands, load, until, wanted] = asked;
+  const auto& [options, commands, load, until, start, wants_all, wanted] = asked;
   const ArmLegs& robot = *context.robot.arm_legs();
   ArmLegsWorkspace& work = legs_work(context);
-  const ArmLegsState& state = arm_legs_forward(robot, commands, load, options, work);
+  const ArmLegsState& state = start ? arm_legs_forward_from(robot, *start, commands, load, options, work)
+                                    : arm_legs_forward(robot, commands, load, options, work);
   if (until && state.report.ok()) {
-    std::array<double, 6> direction{};
-    std::copy(until->direction.begin(), until->direction.end(), direction.begin());
-    const ArmLegsLoadPath path = arm_legs_follow_load(robot, direction, until->limit, work);
+    const ArmLegsLoadPath path = arm_legs_follow_load(robot, until->direction, until->limit, work);
     put_legs_state(context, robot, path.state, path.state.report);
     put_growth(context.answer, path);
     if (path.end == LoadEnd::stopped) context.answer["status"] = to_string(Status::stopped);
   } else {
     put_legs_state(context, robot, state, state.report);
   }
+  if (state.report.status == Status::stalled && context.ask == Ask::forward && !wants_all && !until)
+    context.add_message("all: true looks from other poses, too");
   put_legs_wants(context, robot, state, wanted);
+  if (wants_all && state.report.status != Status::bad_input && state.report.status != Status::unsupported)
+    put_legs_solutions(context, robot, asked);
 }
 
 /// The points of a path; what a point does not say is as at the point before, of loads as in the question.
 std::vector<ArmLegsStep> read_legs_points(Context& context, const ArmLegs& robot) {
   Reader& query = context.query;
-  const ArmLegsLoad load = read_legs_load(query);
+  const ArmLegsLoad load = read_legs_load(robot, query);
   std::vector<ArmLegsStep> path;
   const auto list = query.required("points", "the path: [{tensions, changes or pose, wrench, ...}, ...]");
   for (Reader& point : list.items()) {
@@ -205,14 +345,14 @@ std::vector<ArmLegsStep> read_legs_points(Context& context, const ArmLegs& robot
     }
     if (auto pose = point.optional("pose")) {
       if (has_inputs) pose->fail("ambiguous", "the point gives a pose and what holds tendons; keep one");
-      step.pose = SE3<double>::from(read_spatial_pose(std::move(*pose)));
+      step.pose = read_pose_of(robot, std::move(*pose));
     } else if (!has_inputs && path.empty()) {
       point.required("tensions", "of the first point; or changes, or a pose");
     }
     for (const char* key : {"following", "distributed", "distributed_following", "loads"})
       if (const auto asked = point.optional(key))
         asked->fail("not_available", "is not available of legs of sections in this version; leave it out");
-    step.load = read_legs_load(point, load);
+    step.load = read_legs_load(robot, point, load);
     point.close();
     path.push_back(std::move(step));
   }
@@ -228,11 +368,33 @@ struct LegsInverse {
   LegsWanted wanted;
 };
 
+/// In the plane: a pose, or a position.
+ArmTarget read_planar_target(Context& context, const ArmLegs& robot) {
+  Reader& query = context.query;
+  ArmTarget target;
+  if (const auto direction = query.optional("direction"))
+    direction->fail("not_available", "is of robots in space; in the plane give pose: {x, y, phi}");
+  const auto position = query.optional("position");
+  auto pose = query.optional("pose");
+  if (position && pose) position->fail("ambiguous", "the query gives a pose and a position; keep one");
+  if (position) {
+    target.position = read_position_of(robot, *position);
+  } else if (pose) {
+    const SE3<double> at = read_pose_of(robot, std::move(*pose));
+    target.position = {at.p[0], at.p[1], 0};
+    target.quaternion = {at.R.w, 0, 0, at.R.v[2]};
+  } else {
+    query.required("pose", "{x, y, phi}; or position: [x, y]");
+  }
+  return target;
+}
+
 LegsInverse read_legs_inverse(Context& context) {
+  const ArmLegs& robot = *context.robot.arm_legs();
   LegsInverse asked;
   asked.options.arm = read_legs_options(context);
-  asked.target = read_arm_target(context);
-  asked.load = read_legs_load(context.query);
+  asked.target = robot.is_planar ? read_planar_target(context, robot) : read_arm_target(context);
+  asked.load = read_legs_load(robot, context.query);
   read_arm_start(context, asked.options.arm);
   if (const auto limit = context.query.optional("tension_limit"))
     asked.options.most_tension = limit->quantity(Dimension::force, Range::positive());
@@ -264,7 +426,7 @@ LegsStatics read_legs_statics(Context& context) {
   Reader& query = context.query;
   ArmLegsMeasurement& measured = asked.measured;
   measured.held = read_arm_commands(tendon_counts_of(robot), query);
-  asked.load = read_legs_load(query);
+  asked.load = read_legs_load(robot, query);
   read_arm_start(context, asked.options);
   const auto tensions = query.optional("measured_tensions"), position = query.optional("position"),
              deviation = query.optional("deviation"), force = query.optional("force_alone");
@@ -278,16 +440,16 @@ LegsStatics read_legs_statics(Context& context) {
       if (measured.held[i].held == TendonHeld::tension)
         measured.answers[i] = std::nan("");  // held: it tells nothing
   }
-  if (position) measured.position = position->array<3>(Dimension::length, Range::place());
-  std::optional<SpatialPose> seen;
+  if (position) measured.position = read_position_of(robot, *position);
+  std::optional<SE3<double>> seen;
   if (pose) {
     if (position) pose->fail("ambiguous", "the query gives a pose and a position; keep one");
-    seen = read_spatial_pose(std::move(*pose));
-    measured.position = std::array<double, 3>{seen->position[0], seen->position[1], seen->position[2]};
-    measured.quaternion = seen->quaternion;
+    seen = read_pose_of(robot, std::move(*pose));
+    measured.position = std::array<double, 3>{seen->p[0], seen->p[1], seen->p[2]};
+    measured.quaternion = std::array<double, 4>{seen->R.w, seen->R.v[0], seen->R.v[1], seen->R.v[2]};
   }
   if (seen && !tensions) {
-    asked.held = SE3<double>::from(*seen);
+    asked.held = seen;
     for (const auto* given : {&deviation, &force})
       if (*given)
         (*given)->fail("no_effect",
@@ -307,16 +469,16 @@ void answer_legs_statics(Context& context, const LegsStatics& asked) {
     const ArmLegsHeld held = arm_legs_hold(robot, *held_at, measured.held, load, options, work);
     put_legs_state(context, robot, held.state, held.state.report);
     if (!held.state.report.ok()) return;
-    context.answer["wrench"] = held.wrench;
+    context.answer["wrench"] = wrench_value(robot, held.wrench);
     put_legs_wants(context, robot, held.state, wanted);
     return;
   }
   const ArmLegsSensed sensed = arm_legs_sense(robot, measured, load, force_alone, options, work);
   put_legs_state(context, robot, sensed.state, sensed.report);
   if (sensed.report.status == Status::bad_input || sensed.state.tensions.empty()) return;
-  context.answer["wrench"] = sensed.wrench;
+  context.answer["wrench"] = wrench_value(robot, sensed.wrench);
   if (sensed.report.ok()) {
-    context.answer["covariance"] = Value(MatrixView(sensed.covariance.data(), 6, 6));
+    context.answer["covariance"] = matrix_value(robot, sensed.covariance.data(), 6, 6, true, true);
     put_number(context.answer, "condition", sensed.condition);
   }
   put_number(context.answer, "misfit", sensed.misfit);
@@ -377,6 +539,24 @@ void answer_legs_track(Context& context, const LegsTrack& asked) {
   context.answer["rows"] = std::move(rows);
 }
 
+/// As a file has it.
+Value base_value(const ArmLegs& robot, const ArmLeg& leg) {
+  const Vec3<double> ahead = leg.base.rotate(Vec3<double>(0, 0, 1));
+  Value base{{"point", point_value(robot, leg.base.p)}};
+  if (robot.is_planar) {
+    if (!leg.turns_at_base) base["direction"] = std::atan2(ahead.y(), ahead.x());
+    return base;
+  }
+  base["direction"] = Value(ahead);
+  base["section_x"] = Value(leg.base.rotate(Vec3<double>(1, 0, 0)));
+  return base;
+}
+Value closure_value(const ArmLegs& robot, const ArmLeg& leg) {
+  if (leg.strut > 0) return {{"type", "strut"}, {"length", leg.strut}};
+  const char* joint = !robot.is_planar ? "ball" : leg.turns_at_base ? "chord" : "pin";
+  return {{"type", leg.is_clamped ? "clamp" : joint}};
+}
+
 void describe_arm_legs(Context& context) {
   const ArmLegs& robot = *context.robot.arm_legs();
   Value inputs = Value::list(), legs = Value::list();
@@ -394,21 +574,18 @@ void describe_arm_legs(Context& context) {
     for (const ArmSection& section : leg.arm.sections) sections.push_back(section_value(section));
     for (const ArmTendon& tendon : leg.arm.tendons) tendons.push_back(tendon_value(tendon));
     legs.push_back(
-        {{"base",
-          {{"point", Value(leg.base.p)},
-           {"direction", Value(leg.base.rotate(Vec3<double>(0, 0, 1)))},
-           {"section_x", Value(leg.base.rotate(Vec3<double>(1, 0, 0)))}}},
+        {{"base", base_value(robot, leg)},
          {"link",
           {{"type", "elastic"}, {"length", leg.arm.length()}, {"sections", sections}, {"tendons", tendons}}},
-         {"closure", {{"type", leg.is_clamped ? "clamp" : "ball"}}},
-         {"platform_point", Value(leg.platform_point)}});
+         {"closure", closure_value(robot, leg)},
+         {"platform_point", point_value(robot, leg.platform_point)}});
   }
   Value& answer = context.answer;
   answer["status"] = "converged";
   answer["kind"] = "arm_legs";
-  answer["space"] = "spatial";
+  answer["space"] = robot.is_planar ? "planar" : "spatial";
   answer["inputs"] = std::move(inputs);
-  answer["home"] = pose_value(AnyPose(robot.home));
+  answer["home"] = pose_value(pose_of(robot, SE3<double>::from(robot.home)));
   answer["platform"] = {{"mass", robot.platform_mass}};
   answer["gravity"] = robot.gravity;
   answer["legs"] = std::move(legs);

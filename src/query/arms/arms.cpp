@@ -219,9 +219,10 @@ ArmWanted read_arm_wants(ArmContext& context) {
 
 namespace {
 
-std::vector<double> numbers_of(std::span<const Vec3<double>> points) {
+std::vector<double> numbers_of(std::span<const Vec3<double>> points, int count) {
   std::vector<double> numbers;
-  for (const Vec3<double>& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
+  for (const Vec3<double>& point : points)
+    numbers.insert(numbers.end(), point.begin(), point.begin() + count);
   return numbers;
 }
 
@@ -235,20 +236,26 @@ std::vector<double> places_along(const Arm& arm, int samples) {
 
 void ArmPicture::add(const Arm& arm, const ArmWorkspace& work, int samples, double unknown_radius) {
   const std::vector<double> places = places_along(arm, samples);
-  std::vector<double> backbone, curvature;
-  for (const SE3<double>& frame : arm_frames(arm, places, work))
-    backbone.insert(backbone.end(), frame.p.begin(), frame.p.end());
+  const int dimension = is_planar ? 2 : 3;
+  std::vector<Vec3<double>> points;
+  std::vector<double> curvature;
+  for (const SE3<double>& frame : arm_frames(arm, places, work)) points.push_back(frame.p);
   for (const auto& strain : arm_strains(arm, places, work))
-    curvature.insert(curvature.end(), strain.begin() + 3, strain.end());
-  backbones.push_back(Value(backbone, 3));
-  curvatures.push_back(Value(curvature, 3));
+    if (is_planar)
+      curvature.push_back(strain[4]);
+    else
+      curvature.insert(curvature.end(), strain.begin() + 3, strain.end());
+  backbones.push_back(Value(numbers_of(points, dimension), static_cast<std::size_t>(dimension)));
+  curvatures.push_back(is_planar ? Value(curvature) : Value(curvature, 3));
   const auto lines = arm_tendon_lines(arm, work);
   std::size_t next = 0;
   for (const std::size_t count : tendons_by_section(arm)) {
     Value of_section = Value::list();
-    for (std::size_t i = 0; i < count; ++i, ++next) of_section.push_back(Value(numbers_of(lines[next]), 3));
+    for (std::size_t i = 0; i < count; ++i, ++next)
+      of_section.push_back(Value(numbers_of(lines[next], dimension), static_cast<std::size_t>(dimension)));
     tendons.push_back(std::move(of_section));
   }
+  if (is_planar) return;
   double from = 0;
   for (const ArmSection& section : arm.sections) {
     std::vector<double> at_discs;

@@ -78,6 +78,8 @@ Value by_end_section(const std::vector<std::size_t>& counts, std::span<const dou
 /// Lines and discs of arms, as shapes answer them.
 struct ArmPicture {
   Value backbones = Value::list(), curvatures = Value::list(), tendons = Value::list(), discs = Value::list();
+  /// In the plane of x and y: points of two numbers, the curvature that turns to the right; no discs.
+  bool is_planar = false;
 
   /// @param unknown_radius of discs of which it is not known [m]
   void add(const Arm& arm, const ArmWorkspace& work, int samples, double unknown_radius);

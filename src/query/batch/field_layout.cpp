@@ -84,7 +84,7 @@ FieldLayouts::FieldLayouts(const Robot& robot, std::string_view query)
   else if (const Arm* arm = robot.arm())
     count(*arm);
   else if (const ArmLegs* legs = robot.arm_legs())
-    for (const ArmLeg& leg : legs->legs) count(leg.arm);
+    count(*legs);
   else
     count(robot);
 }
@@ -120,6 +120,12 @@ void FieldLayouts::count(const Arm& arm) {
   legs_ = inputs_ = columns_ = inputs_ + arm.tendons.size();
 }
 
+void FieldLayouts::count(const ArmLegs& robot) {
+  for (const ArmLeg& leg : robot.legs) count(leg.arm);
+  is_planar_ = robot.is_planar;
+  if (is_planar_) freedoms_ = rows_ = 3;
+}
+
 FieldLayout FieldLayouts::lists(std::string_view name) const {
   if (name == "tensions" && !is_arm_) return matrix_of(legs_, 2);
   if (name == "angles") return matrix_or_lists_of(angles_);
@@ -131,7 +137,7 @@ FieldLayout FieldLayouts::input(std::string_view place) const {
   const Lengths indices = take_indices(place);
   if (!indices.empty()) return {};
   const std::string_view name = place.substr(place.rfind('.') + 1);
-  if (name == "position") return list_of(3);
+  if (name == "position") return list_of(is_planar_ ? 2 : 3);
   if (name == "quaternion") return list_of(4);
   const Field* field = find_field(name);
   if (!field) return {};

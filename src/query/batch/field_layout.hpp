@@ -40,6 +40,7 @@ class FieldLayouts {
   void count(const Robot& robot);
   void count(const SerialRobot& robot);
   void count(const Arm& arm);
+  void count(const ArmLegs& robot);
   FieldLayout lists(std::string_view name) const;
   FieldLayout whole(AnswerShape shape) const;
   FieldLayout of_arm(const AnswerField& field) const;

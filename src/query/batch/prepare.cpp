@@ -11,6 +11,7 @@
 #include "query/batch/row_places.hpp"
 #include "query/tree_session.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/robot/arm_legs.hpp"
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/serial.hpp"
 
@@ -194,11 +195,12 @@ Outputs usual_outputs(const Robot& robot, std::string_view query) {
     return usual;
   }
   Outputs usual;
-  if (robot.arm_legs()) {
-    usual = {{"position", "pose.position"},
-             {"quaternion", "pose.quaternion"},
-             {"tensions", "tensions"},
-             {"changes", "changes"}};
+  if (const ArmLegs* legs = robot.arm_legs()) {
+    if (legs->is_planar)
+      usual = {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
+    else
+      usual = {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
+    usual.insert(usual.end(), {{"tensions", "tensions"}, {"changes", "changes"}});
     if (query == "statics") usual.emplace_back("wrench", "wrench");
   } else if (robot.arm()) {
     usual = {{"position", "tip.position"},

@@ -81,7 +81,7 @@ return std::array{
           "of the joints of each chain, from the first sprung one; before them the direction of a first link that a motor turns"},
     Field{"start", FieldShape::start, length,
           {.forward = of_platforms | of_arms, .inverse = of_kinematic | of_rods | of_serial | of_arms, .velocity = of_kinematic | of_rods | of_arms, .shape = of_platforms | of_arms, .statics = of_loads | of_arms, .track = of_platforms | of_arms},
-          "where the search begins: a pose, of inverse and track inputs, of a serial robot its configuration, of an arm the mean curvatures and torsion of equal parts, as `all` tells them of each solution, or last, where the last question with a start ended, of `track` of an arm where its last path did, with what friction remembers; default the robot's home"},
+          "where the search begins: a pose, of inverse and track inputs, of a serial robot its configuration, of an arm the mean curvatures and torsion of equal parts, as `all` tells them of each solution, of a platform on legs of sections a solution's pose and curvatures, or last, where the last question with a start ended, of `track` of an arm where its last path did, with what friction remembers; default the robot's home"},
     Field{"set_at", FieldShape::pose, length, {.statics = of_chains, .track = of_chains},
           "the pose at which the tendons are set without load, the outer ones loose"},
     Field{"hold", word, number, {.statics = of_chains, .track = of_chains}, "what stays after `set_at` or with `pose`: tension (default) or length", holds},

@@ -1,0 +1,233 @@
+/// A platform in the plane on legs of two sections, through the real `sinew query`.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "sinew/io/robot_file.hpp"
+#include "sinew_query.hpp"
+
+namespace sinew::test {
+namespace planar_arm_legs_query_test {
+
+const std::string robot = "3-rfr-two-section";
+const Json some_tensions = {{4, 0}, {0, 0.5}, {4, 0}, {0, 0}, {4, 0}, {0, 0}};
+
+/// A file of the test, away when it ends.
+class OwnFile {
+ public:
+  explicit OwnFile(const std::string& text)
+      : path_(std::filesystem::temp_directory_path() /
+              ("sinew-planar-" + std::to_string(::getpid()) + ".yaml")) {
+    std::ofstream(path_) << text;
+  }
+  OwnFile(const OwnFile&) = delete;
+  OwnFile& operator=(const OwnFile&) = delete;
+  ~OwnFile() { std::filesystem::remove(path_); }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+std::string with(const std::string& what, const std::string& instead) {
+  std::string all = read_robot_text(robot).value();
+  for (std::size_t at = all.find(what); at != std::string::npos; at = all.find(what, at + instead.size()))
+    all.replace(at, what.size(), instead);
+  return all;
+}
+
+TEST(PlanarArmLegsQuery, OfConstantCurvatureItIsTheKinematicRobot) {
+  // in channels, where a tendon's length is that of an arc beside the backbone
+  const OwnFile channels(with("discs: {count: 5}", "guides: channel"));
+  for (const std::array<double, 3>& pull :
+       {std::array{5e-4, 6e-4, 7e-4}, {5e-3, 6e-3, 7e-3}, {9e-3, 4e-3, 7e-3}}) {
+    Json changes = Json::array(), tensions = Json::array(), inputs = Json::array();
+    for (const double one : pull) {
+      changes.push_back({-one / 2, nullptr});
+      changes.push_back({-one, nullptr});
+      for (int section = 0; section < 2; ++section) tensions.push_back({nullptr, 0});
+      inputs.push_back(0.2 - one);
+    }
+    const Json found = ask(channels.path(), {{{"query", "forward"},
+                                              {"model", "cc"},
+                                              {"changes", changes},
+                                              {"tensions", tensions}}})[0],
+               known = ask("3-rfr", {{{"query", "forward"}, {"inputs", inputs}, {"all", true}}})[0];
+    ASSERT_EQ(found["status"], "converged") << found.dump();
+    double nearest = 1;
+    for (const Json& one : known["solutions"]) {
+      double off = 0;
+      for (const char* key : {"x", "y", "phi"})
+        off = std::max(off, std::abs(one["pose"][key].get<double>() - found["pose"][key].get<double>()));
+      nearest = std::min(nearest, off);
+    }
+    EXPECT_LT(nearest, 1e-9) << found["pose"].dump() << known["solutions"].dump();
+  }
+}
+
+TEST(PlanarArmLegsQuery, EveryQuestionHasNumbersOfThePlane) {
+  const Json load = {0.3, -0.2, 0.004}, by_pose{{"x", 0.0005}, {"y", 0}, {"phi", -0.5}};
+  const std::vector<Json> answers = ask(
+      robot,
+      {{{"query", "forward"},
+        {"tensions", some_tensions},
+        {"wrench", load},
+        {"want", {"shape", "velocity", "stiffness"}},
+        {"samples", 5}},
+       {{"query", "inverse"}, {"pose", by_pose}},
+       {{"query", "inverse"}, {"position", {0.002, 0.001}}},
+       {{"query", "track"}, {"points", {{{"tensions", some_tensions}}, {{"pose", by_pose}}}}, {"steps", 2}},
+       {{"query", "describe"}}});
+  const Json& forward = answers[0];
+  ASSERT_EQ(forward["status"], "converged") << forward.dump();
+  EXPECT_EQ(forward["pose"].size(), 3U);
+  double x = 0, y = 0;
+  for (const Json& leg : forward["legs"])
+    x += leg["force"][0].get<double>(), y += leg["force"][1].get<double>();
+  EXPECT_NEAR(x, 0.3, 1e-9);
+  EXPECT_NEAR(y, -0.2, 1e-9);
+  EXPECT_EQ(forward["U"].size(), 3U);
+  EXPECT_EQ(forward["U"][0].size(), 12U);
+  EXPECT_EQ(forward["stiffness"][2].size(), 3U);
+  EXPECT_EQ(forward["answers_by_wrench"].size(), 12U);
+  EXPECT_EQ(forward["backbones"][2][4].size(), 2U);
+  EXPECT_EQ(forward["curvatures"][0].size(), 5U);
+  EXPECT_EQ(forward["platform"][0].size(), 2U);
+  for (std::size_t k = 0; k < 3; ++k)  // joints have no gap
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_NEAR(forward["backbones"][k][4][i].get<double>(), forward["platform"][k][i].get<double>(), 1e-9);
+  for (const std::size_t k : {1U, 3U}) {
+    ASSERT_EQ(answers[k]["status"], "converged") << answers[k].dump();
+    EXPECT_NEAR(answers[k]["pose"]["phi"].get<double>(), -0.5, 1e-6);
+  }
+  EXPECT_NEAR(answers[2]["pose"]["x"].get<double>(), 0.002, 1e-7);
+  EXPECT_EQ(answers[3]["rows"].size(), 4U);
+  EXPECT_EQ(answers[4]["space"], "planar");
+  EXPECT_EQ(answers[4]["legs"][0]["closure"]["type"], "chord");
+
+  const Json pose = forward["pose"];
+  const std::vector<Json> back =
+      ask(robot, {{{"query", "statics"}, {"tensions", some_tensions}, {"pose", pose}},
+                  {{"query", "statics"},
+                   {"tensions", some_tensions},
+                   {"wrench", {0, 0, 0.004}},
+                   {"position", {pose["x"], pose["y"]}}},
+                  {{"query", "forward"},
+                   {"tensions", some_tensions},
+                   {"until", {{"wrench", {1, 0, 0}}, {"limit", 0.5}}}}});
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(back[0]["wrench"][i].get<double>(), load[i].get<double>(), 1e-3) << back[0].dump();
+  ASSERT_EQ(back[1]["status"], "converged") << back[1].dump();
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(back[1]["wrench"][i].get<double>(), load[i].get<double>(), 1e-3) << back[1].dump();
+  EXPECT_EQ(back[1]["covariance"].size(), 3U);
+  EXPECT_EQ(back[2]["why"], "limit") << back[2].dump();
+}
+
+TEST(PlanarArmLegsQuery, AllTellsOtherEquilibriaAndStartGoesToThem) {
+  const Json query{{"query", "forward"}, {"tensions", some_tensions}, {"all", true}};
+  const Json answer = ask(robot, {query})[0];
+  ASSERT_EQ(answer["status"], "converged") << answer.dump();
+  EXPECT_EQ(answer["complete"], false);
+  EXPECT_EQ(answer["count"], answer["solutions"].size());
+  ASSERT_EQ(answer["solutions"].size(), 2U);  // as many as the kinematic robot's assembly modes
+  bool has_forward = false;
+  std::vector<Json> again;
+  for (const Json& one : answer["solutions"]) {
+    EXPECT_LE(one["residual"].get<double>(), 1e-9);
+    again.push_back({{"query", "forward"},
+                     {"tensions", some_tensions},
+                     {"start", {{"pose", one["pose"]}, {"curvatures", one["curvatures"]}}}});
+    has_forward = has_forward ||
+                  std::abs(one["pose"]["phi"].get<double>() - answer["pose"]["phi"].get<double>()) < 1e-6;
+  }
+  EXPECT_TRUE(has_forward);
+  const auto answers = ask(robot, again);
+  for (std::size_t k = 0; k < again.size(); ++k) {
+    const Json& one = answer["solutions"][k];
+    EXPECT_EQ(answers[k]["status"], one["stable"].get<bool>() ? "converged" : "unstable")
+        << answers[k].dump();
+    for (const char* key : {"x", "y", "phi"})
+      EXPECT_NEAR(std::remainder(answers[k]["pose"][key].get<double>() - one["pose"][key].get<double>(),
+                                 2 * std::numbers::pi),
+                  0, 1e-5);
+  }
+  const auto code = [](const Json& start) {
+    const Json refused =
+        ask(robot, {{{"query", "forward"}, {"tensions", some_tensions}, {"start", start}}})[0];
+    return refused.contains("error") ? refused["error"]["code"].get<std::string>()
+                                     : refused["status"].get<std::string>();
+  };
+  EXPECT_EQ(code({{"pose", answer["pose"]}}), "missing_key");
+  EXPECT_EQ(code({{"pose", answer["pose"]}, {"curvatures", Json::array()}}), "wrong_length");
+  EXPECT_EQ(code({{"pose", answer["pose"]}, {"curvatures", {Json::array(), Json::array(), Json::array()}}}),
+            "wrong_length");
+  EXPECT_EQ(code({{"pose", answer["pose"]}, {"curvatures", {{{0, 0}}, {{0, 0, 0}}, {{0, 0, 0}}}}}),
+            "wrong_length");
+  EXPECT_EQ(code("first"), "unknown_choice");
+}
+
+TEST(PlanarArmLegsQuery, LegsOfEveryClosureAreRead) {
+  const std::string chord = "closure: {type: chord}", angle = "point: {radius: 190 mm, angle: 90 deg}";
+  for (const char* closure : {"{type: strut, length: 40 mm}", "{type: pin}", "{type: clamp}"}) {
+    std::string text = with(chord, std::string("closure: ") + closure);
+    for (const auto& [at, direction] :
+         {std::pair{"90 deg}}", "-72 deg"}, {"210 deg}}", "48 deg"}, {"330 deg}}", "168 deg"}}) {
+      const std::string key = std::string("angle: ") + at + ", platform",
+                        with_direction = std::string("angle: ") +
+                                         std::string(at).substr(0, std::string(at).size() - 1) +
+                                         ", direction: " + direction + "}, platform";
+      text.replace(text.find(key), key.size(), with_direction);
+    }
+    const OwnFile file(text);
+    const auto answers = ask(
+        file.path(), {{{"query", "forward"}, {"tensions", {{0.4, 0}, {0, 0.2}}}}, {{"query", "describe"}}});
+    EXPECT_EQ(answers[0]["status"], "converged") << closure << answers[0].dump();
+    EXPECT_TRUE(answers[1]["legs"][0]["base"].contains("direction"));
+  }
+}
+
+TEST(PlanarArmLegsQuery, BadFilesAndQuestionsSayWhatIsWrong) {
+  const auto code = [](const Json& query) {
+    const Json answer = ask(robot, {query})[0];
+    return answer.contains("error") ? answer["error"]["code"].get<std::string>()
+                                    : answer["status"].get<std::string>();
+  };
+  EXPECT_EQ(code({{"query", "forward"}, {"tensions", some_tensions}, {"wrench", {0, 0, 0, 0, 0, 0}}}),
+            "wrong_length");
+  EXPECT_EQ(code({{"query", "forward"}, {"tensions", some_tensions}, {"gravity", {0, 0, -9.81}}}),
+            "no_effect");
+  EXPECT_EQ(code({{"query", "forward"}, {"tensions", some_tensions}, {"tilt", true}}), "no_effect");
+  EXPECT_EQ(code({{"query", "inverse"}, {"direction", {0, 0, 1}}}), "not_available");
+  EXPECT_EQ(code({{"query", "inverse"}, {"position", {0, 0, 0}}}), "wrong_length");
+  EXPECT_EQ(code({{"query", "inverse"}}), "missing_key");
+  EXPECT_EQ(code({{"query", "inverse"}, {"pose", {{"position", {0, 0, 0}}}}}), "missing_key");
+  EXPECT_EQ(code({{"query", "inverse"}, {"position", {1, 1}}}), "unreachable");
+  for (const auto& [what, instead, wanted] :
+       {std::array{"angle: 0 deg each", "angle: 90 deg each", "out_of_plane"},
+        {"      discs: {count: 5}", "      precurvature: [1, 0, 0]\n      discs: {count: 5}", "out_of_plane"},
+        {"name: 3-RFR", "gravity: [0, 0, -9.81]\nname: 3-RFR", "no_effect"},
+        {"{type: chord}", "{type: ball}", "unknown_choice"},
+        {"{type: chord}", "{type: strut}", "missing_key"},
+        {"{type: chord}", "{type: pin}", "missing_key"},
+        {"angle: 90 deg}}", "angle: 90 deg}, direction: 0 deg}", "no_effect"},
+        {"  - {base: {point: {radius: 190 mm, angle: 330 deg}}, platform_point: {radius: 50 mm, angle: 270 "
+         "deg}}\n",
+         "", "loose_platform"},
+        {"{radius: 50 mm, angle: 270 deg}", "{radius: 190 mm, angle: 270 deg, height: 1 mm}",
+         "unknown_key"}}) {
+    const OwnFile file(with(what, instead));
+    const std::string line = std::string(command_path) + " check '" + file.path() + "' 2>&1";
+    FILE* pipe = ::popen(line.c_str(), "r");
+    std::string text;
+    for (std::array<char, 512> part; std::fgets(part.data(), part.size(), pipe) != nullptr;)
+      text += part.data();
+    EXPECT_NE(::pclose(pipe), 0);
+    EXPECT_NE(text.find(wanted), std::string::npos) << what << '\n' << text;
+  }
+}
+
+}  // namespace planar_arm_legs_query_test
+}  // namespace sinew::test
