@@ -613,6 +613,7 @@ class Verbs:
         accuracy: Number | None = None,
         points: Any | None = None,
         steps: int | None = None,
+        motions: Lists | None = None,
         from_: Any | None = None,
         to: Mapping[str, Any] | None = None,
         objective: str | None = None,
@@ -699,6 +700,9 @@ class Verbs:
                 distributed, distributed_following, loads, gravity
             steps (int): even ones to each point of an arm's path, a row each; default 10; finer ones tell
                 more of what slips first
+            motions (lists of numbers): of the tendons of each section of an arm how fast what holds them
+                goes on where the path ends (N/s, or m/s, > 0 pays out; null: it rests): rates there, with
+                friction, as matrices for these ways to move; a list each, or an array
             from_ (number, list, dict or str) [m, rad]: first pose of a path, of rods with three inputs z,
                 e1 and e2
             to (dict): last pose of a path; of a curve of equilibria what changes along it: inputs,
