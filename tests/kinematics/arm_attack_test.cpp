@@ -105,7 +105,10 @@ TEST(ArmAttack, RandomArms) {
   std::map<std::string, int> ended;
   int wrong = 0, other_branch = 0, too_low = 0;
   for (int round = from; round < count; ++round) {
-    const auto [arm, commands, load] = random_question(round);
+    const Question question = random_question(round);
+    const auto& arm = question.arm;
+    const auto& commands = question.commands;
+    const ArmLoad& load = question.load;
     ArmWorkspace work(arm);
     const ArmState state = arm_forward(arm, commands, load, {.accuracy = 1e-5}, work);
     ++ended[std::string(to_string(state.report.status))];
