@@ -67,7 +67,11 @@ SINEW_C_API sinew_session* sinew_session_new(const sinew_robot* robot);
 
 /* Answers a question, in JSON, on one line. `length`, if it is not NULL, becomes that of the answer in bytes.
  * What is wrong with a question is in the answer: {"error": {"code", "where", "message"}}. NULL where there
- * is no memory for it. */
+ * is no memory for it.
+ *
+ * While a session answers, any thread may ask it {"query": "progress"}, which tells at once how far it is and
+ * disturbs nothing: {"query": "progress", "busy": true}, and of a fit of identify, after its first step,
+ * "part", what is being done, "steps" of that so far, and "error", the root mean square distance [m]. */
 SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t size, size_t* length);
 
 /* Prepares a question for many rows: a query in which texts "$name" stand for numbers, or for whole lists

@@ -18,6 +18,7 @@
 #include "batch.h"
 #include "interrupt.h"
 #include "json_reader.h"
+#include "progress.h"
 #include "question.h"
 #include "text.h"
 
@@ -62,8 +63,10 @@ static json_node* parsed(char* text, size_t size) {
 }
 
 static char* ask(sinew_session* session, const char* question, size_t size, size_t* length) {
+  progress_begin(session, question, size);
   interrupt_begin(session);
   char* answer = sinew_ask(session, question, size, length);
+  progress_end();
   interrupt_end();
   return answer;
 }

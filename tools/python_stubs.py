@@ -10,11 +10,11 @@ import types
 
 PACKAGE = pathlib.Path(__file__).resolve().parent.parent / "python" / "sinew"
 HEAD = '''"""Written by tools/python_stubs.py of _fields.py."""
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ._types import Lists, Number, Numbers, Pose, Rows
-from .answer import Answer
+from .answer import Answer, Record
 from .identification import Identification
 
 class Verbs:
@@ -42,6 +42,8 @@ def method(name, fields, verbs):
     if name not in verbs.SINGLE:
         parameters += ["outputs: Mapping[str, str] | Sequence[str] | None = None", "path: str | None = None",
                        "threads: int | None = None", "out: Any = None"]
+    if name == "identify":
+        parameters.append("progress: Callable[[Record], Any] | bool | None = None")
     text = "\n".join(("        " + line).rstrip() for line in verbs.document(name).splitlines()).lstrip()
     inside = ",\n        ".join(parameters)
     return f'    def {name}(\n        {inside},\n    ) -> {"Identification" if name == "identify" else "Answer"}:\n        """{text}\n        """\n'

@@ -2,6 +2,7 @@
 /// One request, one answer, in JSON: what the command, the server and every binding put their questions to.
 /// The fields are in docs/protocol.md; typed functions (kinematics/, analysis/) do the work.
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,6 +12,13 @@
 #include "sinew/io/node.hpp"
 
 namespace sinew::inline v1 {
+
+/// How far a question is that takes long: a fit of `identify`.
+struct QuestionProgress {
+  std::string part;  ///< what is being done: `fitting`, `holding out 5 parts`
+  int steps = 0;     ///< of that, so far [1]
+  double error = 0;  ///< so far, root mean square of distances [m]
+};
 
 /// A robot opened for questions. Not for two threads at once: open one a thread.
 class SINEW_API Session {
@@ -29,6 +37,10 @@ class SINEW_API Session {
   /// Solves that are under way end with status `stopped`, with the best they have, soon after `stop` is
   /// requested; so does every later one, until another token is given.
   void stop_on(StopToken stop);
+
+  /// Told from now on, by the thread that asks, after each step of a question that takes long; an empty
+  /// function for nobody. It must not throw, nor ask this session.
+  void progress_to(std::function<void(const QuestionProgress&)> call);
 
   /// Forgets the pose that `"start": "last"` begins at, as for another client: the session is as when it was
   /// opened.

@@ -138,6 +138,20 @@ static PyObject* session_stop(PyObject* self, PyObject* nothing) {
   return Py_NewRef(Py_None);
 }
 
+/* What is asked goes on: the library answers this at once, whichever thread asks. */
+static PyObject* session_progress(PyObject* self, PyObject* nothing) {
+  (void)nothing;
+  static const char question[] = "{\"query\": \"progress\"}";
+  size_t length = 0;
+  char* answer;
+  Py_BEGIN_ALLOW_THREADS answer =
+      sinew_ask(((Session*)self)->session, question, sizeof question - 1, &length);
+  Py_END_ALLOW_THREADS if (!answer) return PyErr_NoMemory();
+  PyObject* text = PyUnicode_DecodeUTF8(answer, (Py_ssize_t)length, "replace");
+  sinew_free(answer);
+  return text;
+}
+
 static PyObject* session_is_busy(PyObject* self, void* nothing) {
   (void)nothing;
   return PyBool_FromLong(((Session*)self)->is_busy);
@@ -154,6 +168,7 @@ static PyMethodDef session_methods[] = {
     {"ask", (PyCFunction)(void (*)(void))session_ask, METH_FASTCALL, "ask(query, fields, ranks)"},
     {"ask_text", session_ask_text, METH_O, "ask_text(question): both are JSON"},
     {"stop", session_stop, METH_NOARGS, "Stops what another thread asks."},
+    {"progress", session_progress, METH_NOARGS, "How far what another thread asks is: JSON."},
     {NULL, NULL, 0, NULL}};
 static PyGetSetDef session_fields[] = {{"is_busy", session_is_busy, NULL, NULL, NULL},
                                        {NULL, NULL, NULL, NULL, NULL}};

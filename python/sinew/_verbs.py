@@ -18,6 +18,9 @@ _BATCH_HELP = (
     'path (str): "continue", as of `Robot.prepare`',
     "threads (int): default all cores; the bytes do not depend on it",
     "out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name")
+_PROGRESS_HELP = (
+    "progress (function or bool): told, from a thread of its own, how far the fit is: a record of `part` (str), `steps` (int) of it and `error`, the root mean square "
+    "distance so far [m]; what it raises stops the fit and is raised. True: a line on stderr, the default where that is a terminal; False: nothing",)
 _FRAMES = "Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before the angular."
 _ARRAYS = "An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of arrays (n, ...). Also by keyword:"
 _SHAPES = {"numbers": "; (k,)", "lists": "; a list each, or an array"}
@@ -43,6 +46,8 @@ def document(name: str) -> str:
     lines += _entries(_field(field) for field in verb.fields)
     if name not in SINGLE:
         lines += ["", *textwrap.wrap(_ARRAYS, 100), *_entries(_BATCH_HELP)]
+    if name == "identify":
+        lines += ["", "Also by keyword:", *_entries(_PROGRESS_HELP)]
     lines += ["", "The answer has `ok`, `status`, `message`, and, as far as the robot has them:", *_entries(verb.answer)]
     lines += ["", "Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`."]
     return "\n".join(lines)
@@ -51,7 +56,7 @@ def document(name: str) -> str:
 def _signature(name: str) -> inspect.Signature:
     kinds = inspect.Parameter
     parameters = [kinds("self", kinds.POSITIONAL_ONLY)]
-    for index, field in enumerate((*VERBS[name].fields, *(BATCH if name not in SINGLE else ()))):
+    for index, field in enumerate((*VERBS[name].fields, *(BATCH if name not in SINGLE else ()), *(("progress",) if name == "identify" else ()))):
         place = kinds.POSITIONAL_OR_KEYWORD if index == 0 else kinds.KEYWORD_ONLY
         parameters.append(kinds(field, place, default=None))
     return inspect.Signature(parameters)

@@ -1,9 +1,9 @@
 """Written by tools/python_stubs.py of _fields.py."""
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ._types import Lists, Number, Numbers, Pose, Rows
-from .answer import Answer
+from .answer import Answer, Record
 from .identification import Identification
 
 class Verbs:
@@ -613,6 +613,7 @@ class Verbs:
         accuracy: Number | None = None,
         points: Any | None = None,
         steps: int | None = None,
+        motions: Lists | None = None,
         from_: Any | None = None,
         to: Mapping[str, Any] | None = None,
         objective: str | None = None,
@@ -699,6 +700,9 @@ class Verbs:
                 distributed, distributed_following, loads, gravity
             steps (int): even ones to each point of an arm's path, a row each; default 10; finer ones tell
                 more of what slips first
+            motions (lists of numbers): of the tendons of each section of an arm in which direction, and how
+                fast [N/s, m/s], what holds them goes on where the path ends: a change > 0 pays out, null
+                rests. The answer has the rates there, with friction, as matrices; a list each, or an array
             from_ (number, list, dict or str) [m, rad]: first pose of a path, of rods with three inputs z,
                 e1 and e2
             to (dict): last pose of a path; of a curve of equilibria what changes along it: inputs,
@@ -945,6 +949,7 @@ class Verbs:
         noise: Number | None = None,
         folds: int | None = None,
         map: bool | None = None,
+        progress: Callable[[Record], Any] | bool | None = None,
     ) -> Identification:
         """Parameters of an arm, fitted to measured rows.
 
@@ -973,6 +978,12 @@ class Verbs:
                 them; default 5, 0 for none
             map (bool): motors and axes are taken as the rows say, should pulls be paid out, or tendons
                 turned or the other way round
+
+        Also by keyword:
+            progress (function or bool): told, from a thread of its own, how far the fit is: a record of
+                `part` (str), `steps` (int) of it and `error`, the root mean square distance so far [m];
+                what it raises stops the fit and is raised. True: a line on stderr, the default where that
+                is a terminal; False: nothing
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             robot: the fitted arm, a Robot; `asked` is that of the start, `file` its file as str, `save`

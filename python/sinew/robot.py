@@ -12,6 +12,7 @@ from typing import Any, Union
 from . import _sinew
 from ._errors import InputError, from_text
 from ._fields import RANKS
+from ._progress import Watch
 from ._verbs import Verbs
 from .answer import Answer, Record
 from .identification import Identification, rows_of
@@ -73,9 +74,16 @@ class Robot(Verbs):
         for name in ("changes", "tensions"):
             if getattr(fields.get(name), "ndim", 0) == 2 and self._is_of_tendons(name):
                 fields = {**fields, name: self._rows_of_tendons(fields[name])}
-        if query == "identify" and "rows" in fields:
-            fields = {**fields, "rows": rows_of(fields["rows"])}
-        asked = self._session().ask(query, fields, RANKS)
+        session = self._session()
+        if query == "identify":
+            fields = dict(fields)
+            watch = Watch(session, fields.pop("progress", None))
+            if "rows" in fields:
+                fields["rows"] = rows_of(fields["rows"])
+            with watch:
+                asked = session.ask(query, fields, RANKS)
+        else:
+            asked = session.ask(query, fields, RANKS)
         if asked is None:
             from .columns import ask_columns
             return ask_columns(self, query, fields)

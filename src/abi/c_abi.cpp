@@ -9,8 +9,10 @@
 #include <cstring>
 #include <memory>
 #include <memory_resource>
+#include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,10 +40,39 @@ struct sinew_robot : sinew_object {
 struct sinew_session : sinew_object {
   explicit sinew_session(const sinew_robot& robot) : session(sinew::Session::open(*robot.document).value()) {
     session.stop_on(sinew::StopToken(is_to_stop));
+    session.progress_to([this](const sinew::QuestionProgress& now) {
+      const std::scoped_lock lock(guard);
+      so_far = now;
+    });
   }
   void stop() override { is_to_stop = true; }
+  /// Of the question that is answered now, if one is; from any thread.
+  std::string progress() {
+    nlohmann::ordered_json answer{{"query", "progress"}};
+    const std::scoped_lock lock(guard);
+    answer["busy"] = is_busy;
+    if (so_far) {
+      answer["part"] = so_far->part;
+      answer["steps"] = so_far->steps;
+      answer["error"] = so_far->error;
+    }
+    return answer.dump();
+  }
+  void begin() {
+    const std::scoped_lock lock(guard);
+    is_busy = true;
+    so_far.reset();
+  }
+  void end() {
+    const std::scoped_lock lock(guard);
+    is_busy = false;
+    so_far.reset();
+  }
   sinew::Session session;
   std::atomic<bool> is_to_stop = false;
+  std::mutex guard;  ///< of what follows
+  bool is_busy = false;
+  std::optional<sinew::QuestionProgress> so_far = {};
 };
 
 struct sinew_batch : sinew_object {
@@ -97,6 +128,16 @@ std::int32_t guarded(char** error, const Use& use) noexcept {
   }
 }
 
+/// Whether that asks how far the session is, and nothing else: such a question is answered at once.
+bool asks_progress(std::string_view question) {
+  constexpr std::size_t most = 200;  // others are parsed but once
+  if (question.size() > most || question.find("progress") == std::string_view::npos) return false;
+  const auto document = sinew::parse_json(question, "query");
+  if (!document || document->root.members.size() != 1) return false;
+  const sinew::Node* kind = document->root.find("query");
+  return kind && kind->kind == sinew::Node::Kind::string && kind->text == "progress";
+}
+
 /// An answer where the library itself failed: in the form of all errors.
 constexpr std::string_view failed_answer =
     R"({"error":{"code":"failed","where":"sinew","message":"an error of the library; please report the question"}})";
@@ -140,12 +181,18 @@ char* sinew_ask(sinew_session* session, const char* question, std::size_t size, 
     if (copy && length) *length = text.size();
     return copy;
   };
-  session->is_to_stop = false;
   try {
-    return answer(session->session.answer({question, size}));
+    if (asks_progress({question, size})) return answer(session->progress());
+    session->is_to_stop = false;
+    session->begin();
+    const std::string text = session->session.answer({question, size});
+    session->end();
+    return answer(text);
   } catch (const std::bad_alloc&) {
+    session->end();
     return nullptr;
   } catch (const std::exception&) {
+    session->end();
     return answer(failed_answer);
   }
 }

@@ -1,6 +1,7 @@
 /// @file context.hpp
 /// What the handlers of queries share: the robot, the reader of the query and the answer being written.
 #pragma once
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 #include "sinew/robot/robot.hpp"
+#include "sinew/session.hpp"
 
 namespace sinew::inline v1 {
 
@@ -18,6 +20,9 @@ namespace sinew::inline v1 {
 enum class Ask { forward, inverse, velocity, shape, statics, track, diagram, identify, describe };
 
 struct Handlers;
+
+/// Who is told how far a question is; may be empty.
+using ProgressCall = std::function<void(const QuestionProgress&)>;
 
 /// When the search for a pose begins where the last one ended.
 enum class Continues { always, where_asked };
@@ -36,9 +41,10 @@ struct Question {
   /// On a path of questions always: the workspace then still holds that answer. In a session where `start`
   /// says so.
   Continues continues = Continues::where_asked;
-  bool names_start = false;     ///< `start` was read
-  bool starts_at_last = false;  ///< ... and there is a last pose
-  bool is_only_read = false;    ///< nothing is computed: what is wrong with the fields is all that is asked
+  bool names_start = false;                ///< `start` was read
+  bool starts_at_last = false;             ///< ... and there is a last pose
+  const ProgressCall* progress = nullptr;  ///< none: nobody wants to know
+  bool is_only_read = false;  ///< nothing is computed: what is wrong with the fields is all that is asked
 
   /// True when all fields are read, none is left over and none was wrong, and the answer is wanted.
   bool ready() { return is_read() && !is_only_read; }

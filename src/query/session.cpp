@@ -197,6 +197,7 @@ struct TreeSession::State {
   std::shared_ptr<const Document> document;
   Opened opened;
   StopToken stop = {};
+  ProgressCall progress = {};
   /// The robot that the last query asked about which changed it: the next one often changes it alike.
   struct Altered {
     Node set, theta_is;  ///< as it was asked
@@ -373,6 +374,7 @@ Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, C
   Question question{query, errors,   answer, begun.handlers(), begun.ask, begun.max_iterations,
                     last,  continues};
   question.is_only_read = is_only_read;
+  question.progress = &state_->progress;
   Context context{question, robot, begun.opened->work};
   begun.handlers().of(begun.ask)(context);
   if (!errors.empty()) return refusal(begun.id, begun.ask, robot, errors);
@@ -405,6 +407,8 @@ SamplerKind TreeSession::plan(const RowPlaces& rows) {
 
 void TreeSession::stop_on(StopToken stop) { state_->stop = stop; }
 
+void TreeSession::progress_to(ProgressCall call) { state_->progress = std::move(call); }
+
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
@@ -435,6 +439,8 @@ Document Session::answer(const Document& query) {
 }
 
 void Session::stop_on(StopToken stop) { state_->session.stop_on(stop); }
+
+void Session::progress_to(ProgressCall call) { state_->session.progress_to(std::move(call)); }
 
 void Session::forget() { state_->last.reset(); }
 

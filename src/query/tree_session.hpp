@@ -32,6 +32,7 @@ class SINEW_API TreeSession {
 
   /// As Session's.
   void stop_on(StopToken stop);
+  void progress_to(ProgressCall call);
 
   TreeSession(TreeSession&&) noexcept;
   TreeSession& operator=(TreeSession&&) noexcept;

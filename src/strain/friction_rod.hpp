@@ -45,6 +45,14 @@ struct PathRates {
       tension;              ///< before the rod, not a number where a motor's may jump; of spans
   std::vector<double> end;  ///< pulled in
   int slipping = 0;         ///< guides
+
+  /// What a change of one input, or one force on the coordinates, adds while the same guides slip.
+  struct Column {
+    std::vector<double> y, tension, end;  ///< tension: of each tendon at its motor
+  };
+  std::vector<Column> by_inputs, by_forces;  ///< where they are asked for
+  std::vector<double> least, most;  ///< rate of each input, the others as they are, between which the
+                                    ///< same guides slip; may be infinite
 };
 
 /// A rod, its tendons and what they remember.
@@ -79,7 +87,10 @@ class FrictionRod {
   /// By which it turns at every guide, that at the base first [rad].
   std::span<const double> angles(std::size_t tendon) const { return chains_[tendon].angle; }
   /// Of the last step's inputs, tension or pulled in, at these rates; loads stay. What is remembered stays.
-  PathRates rates(std::span<const double> direction);
+  PathRates rates(std::span<const double> direction) { return rates(direction, {}, 0); }
+  /// And what is linear around that direction: `by_inputs`, and `by_forces` of so many forces.
+  /// @param forces of each a number for every coordinate, one force after the other
+  PathRates rates(std::span<const double> direction, std::span<const double> forces, int count);
   /// Elastic, of loads that have a potential, and of tendons that stretch [J].
   double stored() const { return now_.stored; }
   /// @}

@@ -158,6 +158,57 @@ TEST(CAbi, StopsFromAnotherThread) {
   sinew_release(robot);
 }
 
+/// A fit of an arm of three sections that takes a while, as a question.
+std::string long_fit() {
+  Json rows{{"pulls", Json::array()}, {"markers", Json::array()}};
+  for (int k = 0; k < 300; ++k) {
+    Json pulls = Json::array();
+    for (int m = 0; m < 3; ++m) {
+      const double one = 0.002 * std::sin(0.3 * k + m), other = 0.002 * std::cos(0.17 * k * (m + 1));
+      for (const double pull : {one, other, -one - other}) pulls.push_back(pull);
+    }
+    rows["markers"].push_back({5 * pulls[0].get<double>(), 5 * pulls[4].get<double>(), 0.2});
+    rows["pulls"].push_back(std::move(pulls));
+  }
+  return Json{{"query", "identify"}, {"fit", "bending,marker,base"}, {"folds", 3}, {"rows", rows}}.dump();
+}
+
+TEST(CAbi, TellsHowFarAFitIsToAnotherThread) {
+  sinew_robot* robot = opened("ftdcr-v4");
+  sinew_session* session = sinew_session_new(robot);
+  constexpr std::string_view ask_progress = R"({"query": "progress"})";
+  EXPECT_EQ(asked(session, ask_progress), R"({"query":"progress","busy":false})");
+  std::atomic<bool> is_over = false;
+  std::string answer;
+  std::thread fit([&] {
+    answer = asked(session, long_fit());
+    is_over = true;
+  });
+  int told = 0, last = 0;
+  std::string part;
+  while (!is_over) {
+    const Json now = Json::parse(asked(session, ask_progress));
+    if (now.contains("steps")) {
+      EXPECT_TRUE(now["busy"].get<bool>());
+      EXPECT_TRUE(now["part"] != part || now["steps"].get<int>() >= last) << now;
+      EXPECT_GT(now["error"].get<double>(), 0);
+      part = now["part"];
+      last = now["steps"];
+      if (++told == 20) sinew_stop(session);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  fit.join();
+  EXPECT_GT(told, 0);
+  EXPECT_TRUE(Json::parse(answer).contains("status")) << answer.substr(0, 400);
+  EXPECT_EQ(asked(session, ask_progress), R"({"query":"progress","busy":false})");
+  // nothing else is taken for it
+  EXPECT_TRUE(Json::parse(asked(session, R"({"query": "progress", "id": 1})")).contains("error"));
+  EXPECT_TRUE(Json::parse(asked(session, R"({"query": ["progress"]})")).contains("error"));
+  sinew_release(session);
+  sinew_release(robot);
+}
+
 /// A prepared question and the columns of its rows.
 struct Rows {
   sinew_batch* batch = nullptr;

@@ -517,5 +517,142 @@ TEST(ArmFriction, RatesOnAndBackDiffer) {
             std::string_view::npos);
 }
 
+/// Around a direction in which tendons move rates are linear in inputs and in a wrench: against the one-sided
+/// rates of other directions, against the path, and where the same guides end to slip.
+TEST(ArmFriction, RatesAreLinearAroundADirection) {
+  for (const bool by_change : {false, true}) {
+    SCOPED_TRACE(by_change);
+    Arm arm = two_sections(4, 5e-5);
+    for (ArmTendon& tendon : arm.tendons) tendon.friction = 0.2, tendon.outside = 0.3;
+    const std::vector<double> start = by_change ? std::vector<double>{-4e-3, 1e-3, 2e-3, -3e-3, 1e-3, -1e-3}
+                                                : std::vector<double>{4, 1, 0.5, 2, 0.7, 1.5},
+                              way = by_change ? std::vector<double>{-1, 0.4, 0.3, -0.6, 0.2, -0.4}
+                                              : std::vector<double>{1, -0.3, 0.2, 0.5, -0.2, 0.4};
+    const auto commands = [&](double by, const std::vector<double>& along) {
+      std::vector<double> values = start;
+      for (std::size_t i = 0; i < 6; ++i) values[i] += by * along[i];
+      return by_change ? changes(values) : tensions(values);
+    };
+    const ArmOptions options{.accuracy = 0, .tolerance = 1e-13},
+        on{.accuracy = 0, .tolerance = 1e-13, .from_last = true};
+    ArmStep first;
+    first.commands = commands(0, way);
+    first.load.wrench = {0.02, -0.01, 0, 0, 0, 0};
+    first.divisions = 3;
+    const auto follow_to = [&](double by, double pushed, ArmWorkspace& work) {
+      auto points = arm_follow(arm, std::vector{first}, options, work);
+      ArmStep next = first;
+      next.divisions = 1;
+      if (by != 0) {
+        next.commands = commands(by, way);
+        next.load.wrench[1] += pushed * by;
+        next.load.wrench[2] -= 0.5 * pushed * by;
+        points = arm_follow(arm, std::vector{next}, on, work);
+      }
+      EXPECT_TRUE(points.back().state.report.ok()) << to_string(points.back().state.report);
+      return points.back().state;
+    };
+    ArmWorkspace work(arm);
+    const ArmState here = follow_to(0, 0, work);
+    const ArmPathRates rates = arm_path_rates(arm, way, work, true);
+    ASSERT_TRUE(rates.regular) << rates.message.view();
+    ASSERT_EQ(rates.J.size(), 36U);
+    EXPECT_GT(rates.slipping, 10);
+    const double speed = std::hypot(rates.twist[0], rates.twist[1], rates.twist[2]);
+    const auto by_matrix = [&](const std::vector<double>& matrix, std::size_t line,
+                               const std::vector<double>& of) {
+      double sum = 0;
+      for (std::size_t i = 0; i < of.size(); ++i) sum += matrix[line * of.size() + i] * of[i];
+      return sum;
+    };
+    const auto off = [&](const std::vector<double>& along, const ArmPathRates& there) {
+      double most = 0;
+      for (std::size_t k = 0; k < 6; ++k) {
+        most = std::max(most, std::abs(by_matrix(rates.J, k, along) - there.twist[k]) / speed);
+        for (const auto& [matrix, values] : {std::pair(&rates.changes_by_inputs, &there.changes),
+                                             std::pair(&rates.tensions_by_inputs, &there.tensions)}) {
+          double size = 0;
+          for (const double value : *values) size = std::max(size, std::abs(value));
+          most = std::max(most, std::abs(by_matrix(*matrix, k, along) - (*values)[k]) / size);
+        }
+      }
+      return most;
+    };
+    EXPECT_LT(off(way, rates), 1e-9);
+    int ends = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_LE(rates.least[i], way[i]);
+      EXPECT_GE(rates.most[i], way[i]);
+      for (const double end : {rates.least[i], rates.most[i]}) {
+        std::vector<double> inside = way, beyond = way;
+        const bool is_open = std::isinf(end);
+        inside[i] = is_open ? way[i] + std::copysign(5.0, end) : way[i] + 0.98 * (end - way[i]);
+        EXPECT_LT(off(inside, arm_path_rates(arm, inside, work)), 1e-8) << i;
+        if (is_open) continue;
+        beyond[i] = way[i] + 1.2 * (end - way[i]) + std::copysign(0.02, end - way[i]);
+        const ArmPathRates there = arm_path_rates(arm, beyond, work);
+        if (!there.regular) continue;
+        ++ends;
+        EXPECT_GT(off(beyond, there), 1e-7) << i;
+      }
+    }
+    EXPECT_GT(ends, 3);
+    // inputs and a small wrench at once, along the path
+    const double step = by_change ? 1e-6 : 1e-4, pushed = by_change ? 2 : 1e-3;
+    ArmWorkspace one(arm), two(arm);
+    const ArmState small = follow_to(step, pushed, one), large = follow_to(2 * step, pushed, two);
+    const auto rate = [&](auto value) {
+      return (4 * (value(small) - value(here)) - (value(large) - value(here))) / (2 * step);
+    };
+    const std::vector<double> wrench{0, pushed, -0.5 * pushed, 0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(by_matrix(rates.J, k, way) + by_matrix(rates.compliance, k, wrench),
+                  rate([&](const ArmState& state) { return state.tip.p[static_cast<int>(k)]; }),
+                  1e-4 * speed);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_NEAR(
+          by_matrix(rates.tensions_by_inputs, i, way) + by_matrix(rates.tensions_by_wrench, i, wrench),
+          rate([&](const ArmState& state) { return state.tensions[i]; }), by_change ? 0.2 : 1e-6);
+      EXPECT_NEAR(by_matrix(rates.changes_by_inputs, i, way) + by_matrix(rates.changes_by_wrench, i, wrench),
+                  rate([&](const ArmState& state) { return state.changes[i]; }), by_change ? 1e-9 : 1e-7);
+    }
+    double felt = 0;  // the wrench is not lost beside the inputs
+    for (std::size_t k = 0; k < 3; ++k)
+      felt = std::max(felt, std::abs(by_matrix(rates.compliance, k, wrench)));
+    EXPECT_GT(felt, 1e-3 * speed);
+  }
+}
+
+/// Without friction the matrices are those of arm_rates(), in every direction.
+TEST(ArmFriction, WithoutFrictionMatricesAreThoseOfRates) {
+  Arm arm = two_sections(3, 5e-5);
+  for (ArmTendon& tendon : arm.tendons) tendon.outside = 0.3, tendon.pretension = 3;
+  for (const bool by_change : {false, true}) {
+    ArmStep step;
+    step.commands =
+        by_change ? changes({-6e-4, 2e-4, 3e-4, -5e-4, 3e-4, -1e-4}) : tensions({2, 1, 0.5, 1, 0.7, 1.5});
+    const ArmOptions options{.order = 2, .elements = 3, .accuracy = 0, .tolerance = 1e-13};
+    ArmWorkspace path(arm), work(arm);
+    ASSERT_TRUE(arm_follow(arm, std::vector{step}, options, path).back().state.report.ok());
+    const ArmPathRates found = arm_path_rates(arm, std::vector<double>(6, by_change ? -1e-3 : 1), path, true);
+    ASSERT_TRUE(arm_forward(arm, step.commands, {}, options, work).report.ok());
+    const ArmRates rates = arm_rates(arm, work, false);
+    ASSERT_TRUE(found.regular && rates.regular);
+    const auto near = [](const std::vector<double>& a, const std::vector<double>& b) {
+      double size = 0, apart = 0;
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        size = std::max(size, std::abs(b[i]));
+        apart = std::max(apart, std::abs(a[i] - b[i]));
+      }
+      EXPECT_LT(apart, 1e-7 * size);
+    };
+    near(found.J, rates.J);
+    near(found.compliance, rates.compliance);
+    near(by_change ? found.tensions_by_inputs : found.changes_by_inputs, rates.answers);
+    near(by_change ? found.tensions_by_wrench : found.changes_by_wrench, rates.answers_by_wrench);
+  }
+}
+
 }  // namespace arm_friction_test
 }  // namespace sinew::test

@@ -227,7 +227,7 @@ TEST(ArmEquilibria, BeginAtShapesAndTellAContinuumOnce) {
       from.from_curvatures = one.curvatures;
       const ArmState again = arm_forward(arm, loose, load, from, anew);
       EXPECT_TRUE(again.report.ok());
-      EXPECT_NEAR(again.energy, one.state.energy, 1e-7 * std::abs(one.state.energy));
+      EXPECT_NEAR(again.energy, one.state.energy, 1e-6 * std::abs(one.state.energy));  // as refined
     }
   }
 }

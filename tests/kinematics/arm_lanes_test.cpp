@@ -267,7 +267,7 @@ TEST(ArmLanes, PathsMeetTheSameEquilibria) {
     EXPECT_LT((path[k].state.tip.p - one.tip.p).norm(), 2e-6 * arm.length()) << k;
     (k % 16 == 0 ? first : later) += path[k].state.report.iterations;
   }
-  EXPECT_GT(15 * first, 2 * later);  // rows that follow take fewer steps
+  EXPECT_GT(8 * first, later);  // of 10 and 138 rows: those that follow take fewer steps
 }
 
 TEST(ArmLanes, StopsWhenAsked) {

@@ -157,6 +157,40 @@ TEST(ArmRefine, WarmAnswersAreResolvedToo) {
   EXPECT_EQ(last, 300);
 }
 
+/// On a walk the tip's error passes through zero, where coarse polynomials seem to do, and grows again while
+/// the shape hardly changes: it is looked at again before it is too large.
+TEST(ArmRefine, WarmWalksKeepWhatWasAsked) {
+  const Arm arm = two_sections(10);
+  const auto walk = [&](int k) {
+    std::vector<double> pulls;
+    for (int i = 0; i < 6; ++i)
+      pulls.push_back(2 + 1.9 * std::sin(2 * std::numbers::pi * (i + 1) * k / 2048 + i));
+    return tensions(pulls);
+  };
+  struct Part {
+    int first, last;
+    double accuracy;
+  };
+  for (const Part& part :
+       {Part{704, 760, 1e-6}, Part{1420, 1490, 1e-6}, Part{1700, 1850, 1e-7}, Part{700, 740, 1e-8}}) {
+    ArmWorkspace warm(arm), best(arm);
+    for (int k = part.first; k <= part.last; ++k) {
+      const bool follows = k > part.first;
+      const ArmState state =
+          arm_forward(arm, walk(k), {}, {.accuracy = part.accuracy, .from_last = follows}, warm);
+      ASSERT_TRUE(state.report.ok()) << k;
+      EXPECT_LE(state.resolution, part.accuracy * arm.length()) << k;
+      if ((k - part.first) % 5 > 0) continue;
+      const ArmState exact = arm_forward(
+          arm, walk(k), {}, {.order = 7, .elements = 24, .accuracy = 0, .from_last = follows}, best);
+      ASSERT_TRUE(exact.report.ok()) << k;
+      const double off = (state.tip.p - exact.tip.p).norm();
+      EXPECT_LE(off, 1.1 * part.accuracy * arm.length()) << k;
+      EXPECT_LE(off, 1.25 * state.resolution + 1e-11) << k;
+    }
+  }
+}
+
 /// More tendons through a disc than a register has lanes.
 TEST(ArmRefine, GradientsOfLengthsAgainstDifferences) {
   Arm arm = two_sections(3);

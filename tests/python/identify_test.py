@@ -1,8 +1,11 @@
 """identify: arrays, files and tables in; a table of parameters and a robot out."""
+import contextlib
 import csv
+import io
 import pathlib
 import pickle
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -52,6 +55,44 @@ class Identify(unittest.TestCase):
         self.assertNotEqual(found.robot, self.robot)
         bent = found.robot.describe().sections[0].backbone.bending[0]
         self.assertAlmostEqual(bent, table["bending"].value, delta=1e-12)
+
+    def test_tells_how_far_it_is(self):
+        told, rows = [], recorded(12)
+        found = self.robot.identify(rows, fit=NAMES, folds=3, model="subsegment_rod", progress=told.append)
+        self.assertTrue(found.ok, found.status)
+        self.assertGreater(len(told), 1)
+        self.assertEqual({now.part for now in told} - {"fitting", "holding out 3 parts"}, set())
+        self.assertTrue(all(now.steps > 0 and now.error > 0 for now in told), told)
+        # it changes nothing, and does not disturb what comes after
+        again = self.robot.identify(rows, fit=NAMES, folds=3, model="subsegment_rod", progress=False)
+        self.assertEqual(found.parameters.value.tolist(), again.parameters.value.tolist())
+
+    def test_what_progress_raises_stops_the_fit(self):
+        class Enough(Exception):
+            pass
+
+        def stop(now):
+            raise Enough(now.part)
+
+        begin = time.monotonic()
+        with self.assertRaisesRegex(Enough, "fitting"):
+            self.robot.identify(recorded(1), model="subsegment_rod", folds=50, progress=stop)
+        self.assertLess(time.monotonic() - begin, 30)
+        self.assertTrue(self.robot.forward(changes=[[-0.002, 0, 0]], model="cc").ok)
+
+    def test_says_how_far_it_is_in_a_terminal(self):
+        class Terminal(io.StringIO):
+            def isatty(self):
+                return True
+
+        rows = recorded(12)
+        for stream, progress, says in ((Terminal(), None, True), (Terminal(), False, False), (io.StringIO(), None, False), (io.StringIO(), True, True)):
+            with contextlib.redirect_stderr(stream):
+                self.robot.identify(rows, fit=NAMES, folds=3, model="subsegment_rod", progress=progress)
+            self.assertEqual("fitting, step" in stream.getvalue(), says, (stream, progress))
+            self.assertTrue(not says or stream.getvalue().endswith("\r\033[K"))
+        with self.assertRaisesRegex(sinew.InputError, "progress is a function"):
+            self.robot.identify(rows, progress=3)
 
     def test_rows_are_arrays(self):
         """Errors by another way: of places that are said to be computed."""

@@ -272,5 +272,41 @@ TEST(ArmTrack, HasRatesOnAndBackWhereThePathEnds) {
   EXPECT_TRUE(ask("two-segment", {asked})[0]["one_sided"][0]["growing"].contains("message"));
 }
 
+/// Rates as matrices while tendons move these ways, against the next small step of the path.
+TEST(ArmTrack, HasMatricesForWaysToMove) {
+  Json query{{"query", "track"}, {"set", rubbing("two-segment", 0.3)}, {"steps", 2}, {"order", 3}};
+  query["points"] = {{{"tensions", {{3, 0, 0}, {1, 0, 0.5}}}}};
+  Json asked = query;
+  asked["motions"] = {{1, nullptr, 0}, {-0.5, 0, 0.2}};
+  const Json path = ask("two-segment", {asked})[0];
+  ASSERT_EQ(path["status"], "converged") << path;
+  const Json& moves = path["in_motion"];
+  ASSERT_TRUE(moves.contains("U")) << moves;
+  const double step = 1e-4;
+  Json next = query;
+  next["points"].push_back(next["points"][0]);
+  next["points"][1]["tensions"] = {{3 + step, 0, 0}, {1 - 0.5 * step, 0, 0.5 + 0.2 * step}};
+  const Json small = ask("two-segment", {next})[0];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto row = moves["U"][k].get<std::vector<double>>();
+    const double rate = row[0] - 0.5 * row[3] + 0.2 * row[5];
+    EXPECT_NEAR(rate, moves["twist"][k].get<double>(), 1e-12);
+    EXPECT_NEAR((small["tip"]["position"][k].get<double>() - path["tip"]["position"][k].get<double>()) / step,
+                rate, 2e-3 * std::abs(moves["twist"][0].get<double>()) + 1e-5);
+  }
+  EXPECT_EQ(moves["least"].size(), 2U);
+  EXPECT_LE(moves["least"][0][0], 1.0);
+  EXPECT_EQ(moves["compliance"].size(), 6U);
+  EXPECT_EQ(moves["changes_by_wrench"].size(), 6U);
+  EXPECT_EQ(moves["tensions_by_inputs"][0][0], 1.0);
+  asked["motions"] = {{-1, -1, 0}};  // the second has no tension to lose
+  EXPECT_NE(ask("two-segment", {asked})[0]["in_motion"]["message"].get<std::string>().find("pull less"),
+            std::string::npos);
+  asked["motions"] = {{0, 0, 0}};
+  EXPECT_EQ(code("two-segment", asked), "out_of_range");
+  asked["motions"] = {{1, 0}};
+  EXPECT_EQ(code("two-segment", asked), "wrong_length");
+}
+
 }  // namespace arm_track_test
 }  // namespace sinew::test

@@ -55,12 +55,32 @@ struct ArmPathRates {
   std::vector<double> tensions;   ///< at the motors; not a number where one jumps as its motor starts [N/s]
   std::vector<double> changes;    ///< of the tendons [m/s]
   int slipping = 0;               ///< guides at which tendons slip [1]
+
+  /// @name Around that direction, while the same guides slip: where they are asked for
+  /// `twist` is J times the direction, `changes` and `tensions` alike; so it is for every direction between
+  /// `least` and `most`, one rate at a time, and for factors > 0 of these.
+  /// @{
+  int tendons = 0;
+  std::vector<double> J;  ///< twist by what is held of the tendons, 6 rows [m/N or 1, rad/N or rad/m]
+  std::vector<double> changes_by_inputs;   ///< of each tendon by what is held of each, square [m/N or 1]
+  std::vector<double> tensions_by_inputs;  ///< the same of tensions at the motors [1 or N/m]
+  std::vector<double> compliance;          ///< twist by a wrench at the tip, 6 × 6 [m/N, rad/(N m)]
+  std::vector<double> changes_by_wrench;   ///< of each tendon by that, 6 columns [m/N, 1/N]
+  std::vector<double> tensions_by_wrench;  ///< the same of tensions at the motors [1, 1/m]
+  /// Rate of each input down to which the same guides slip, the others as they are; may be infinite [N/s,
+  /// m/s].
+  std::vector<double> least;
+  std::vector<double> most;  ///< up to which they do [N/s, m/s]
+  /// @}
 };
 
 /// Rates at the end of the path that the workspace remembers, loads staying. They are one-sided: a guide that
 /// slips as a motor goes on sticks as it turns back, so rates of the opposite direction are others, and those
-/// of two motors do not add up. Only multiples of one direction are multiples.
+/// of two motors do not add up. Only multiples of one direction are multiples. Around a direction in which
+/// tendons move, though, they are linear: as long as the same guides slip.
 /// @param direction of what is held of every tendon by the path's last step, tension [N/s] or change [m/s]
-SINEW_API ArmPathRates arm_path_rates(const Arm& arm, std::span<const double> direction, ArmWorkspace& work);
+/// @param matrices what is linear around it is wanted as well
+SINEW_API ArmPathRates arm_path_rates(const Arm& arm, std::span<const double> direction, ArmWorkspace& work,
+                                      bool matrices = false);
 
 }  // namespace sinew::inline v1

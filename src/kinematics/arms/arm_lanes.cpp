@@ -174,7 +174,7 @@ void ArmLanes::Impl::begin(OpenRow& open) {
     solve_alone(open);
     return;
   }
-  const double size = last ? size_of_highest(level(open.rung.level).rod->model, last->y) : 0;
+  const double size = last ? size_of_variation(level(open.rung.level).rod->model, last->y) : 0;
   ResolutionLadder::Step step = open.ladder.begin(open.follows, size);
   if (!open.follows) {
     open.found[0].y.assign(at(level(0).rod->model.size), 0.0);
@@ -219,7 +219,7 @@ void ArmLanes::Impl::finish(OpenRow& open) {
     state.energy += 0.5 * tendon.compliance * T * T;
   }
   state.coordinates = static_cast<int>(found.y.size());
-  state.resolution = open.rung.checked;
+  state.resolution = open.rung.told;
   state.report = {Status::converged, open.iterations, open.standing_residual, {}};
   if (open.ladder.refines() && state.resolution > 10 * open.ladder.wanted()) {
     solve_alone(open);  // it has words for that
@@ -411,8 +411,7 @@ void ArmLanes::Impl::newton(int which, bool leans) {
     if (lanes[at(l)] != Lane::solved) continue;
     OpenRow& open = *in_lanes[at(l)];
     const Found& found = open.found[at(which)];
-    const ResolutionLadder::Step next =
-        open.ladder.after_solve({true, size_of_highest(model, found.y), found.place()});
+    const ResolutionLadder::Step next = open.ladder.after_solve({true, model, found.y, found.place()});
     if (open.ladder.stands()) open.standing_residual = open.residual;
     open.leans = true;
     take(open, next);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
 #include "sinew/kinematics/arm_path.hpp"
 #include "strain/friction_rod.hpp"
@@ -229,7 +231,8 @@ std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> st
   return points;
 }
 
-ArmPathRates arm_path_rates(const Arm& arm, std::span<const double> direction, ArmWorkspace& work) {
+ArmPathRates arm_path_rates(const Arm& arm, std::span<const double> direction, ArmWorkspace& work,
+                            bool matrices) {
   using Why = strain::PathRates::Why;
   ArmWorkspace::Impl& impl = work.impl();
   ArmPathRates rates;
@@ -249,30 +252,54 @@ ArmPathRates arm_path_rates(const Arm& arm, std::span<const double> direction, A
   for (std::size_t i = 0; i < tendons; ++i)
     if (impl.commands[i].held == TendonHeld::change) inputs[i] = -inputs[i];
   ArmPath& path = *impl.path;
-  const strain::PathRates found = path.rod.rates(inputs);
+  const auto n = at(path.model.size);
+  const std::vector<double> twists = tip_rows(path.model, path.rod.work());
+  const strain::PathRates found = matrices ? path.rod.rates(inputs, twists, 6) : path.rod.rates(inputs);
   if (found.why == Why::no_turn)
     return refuse(
         "a tendon that rubs does not turn at one of its guides: there friction begins with its turn");
   if (found.why == Why::pushes) return refuse("a tendon without tension cannot pull less");
   if (found.why == Why::undecided) return refuse("no choice of guides that slip fits this direction");
   if (found.why != Why::known) return refuse("the equilibrium is a fold: it has no rates");
-  const int n = path.model.size;
-  std::vector<double> body(static_cast<std::size_t>(6 * n));
-  tip_twists(path.model, path.rod.work(), body.data());
-  const double* R = path.rod.work().frames.back().R;
-  for (std::size_t half = 0; half < 6; half += 3)
-    for (std::size_t k = 0; k < 3; ++k) {
-      double own = 0;  // in the tip's axes
-      for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j)
-        own += body[(half + k) * static_cast<std::size_t>(n) + j] * found.y[j];
-      for (std::size_t i = 0; i < 3; ++i) rates.twist[half + i] += R[3 * i + k] * own;
-    }
+  const auto put_twist = [&](const std::vector<double>& y, double* to, std::size_t stride) {
+    for (std::size_t k = 0; k < 6; ++k)
+      to[k * stride] =
+          std::inner_product(y.begin(), y.end(), twists.begin() + static_cast<std::ptrdiff_t>(k * n), 0.0);
+  };
+  put_twist(found.y, rates.twist.data(), 1);
   for (std::size_t i = 0; i < tendons; ++i) {
     rates.tensions.push_back(found.tension[i].front());
     rates.changes.push_back(-found.end[i]);
   }
   rates.slipping = found.slipping;
   rates.regular = true;
+  if (!matrices) return rates;
+  rates.tendons = static_cast<int>(tendons);
+  const auto put = [&](const std::vector<strain::PathRates::Column>& columns, bool by_inputs,
+                       std::vector<double>& moved, std::vector<double>& changes,
+                       std::vector<double>& tensions) {
+    const std::size_t count = columns.size();
+    moved.resize(6 * count);
+    changes.resize(tendons * count);
+    tensions.resize(tendons * count);
+    for (std::size_t j = 0; j < count; ++j) {
+      // a change that is held is what its tendon is paid out, the rod's input what it is pulled in
+      const double way = by_inputs && impl.commands[j].held == TendonHeld::change ? -1 : 1;
+      put_twist(columns[j].y, moved.data() + j, count);
+      for (std::size_t k = 0; k < 6; ++k) moved[k * count + j] *= way;
+      for (std::size_t i = 0; i < tendons; ++i) {
+        changes[i * count + j] = -way * columns[j].end[i];
+        tensions[i * count + j] = way * columns[j].tension[i];
+      }
+    }
+  };
+  put(found.by_inputs, true, rates.J, rates.changes_by_inputs, rates.tensions_by_inputs);
+  put(found.by_forces, false, rates.compliance, rates.changes_by_wrench, rates.tensions_by_wrench);
+  for (std::size_t i = 0; i < tendons; ++i) {
+    const bool by_change = impl.commands[i].held == TendonHeld::change;
+    rates.least.push_back(by_change ? -found.most[i] : found.least[i]);
+    rates.most.push_back(by_change ? -found.least[i] : found.most[i]);
+  }
   return rates;
 }
 

@@ -326,8 +326,7 @@ strain::Relaxed climb(ResolutionLadder& ladder, ResolutionLadder::Step step, Ask
     LoadedRod& rod = rods.at(step.level, step.from);
     const strain::Relaxed one = solve(rod);
     iterations += one.iterations;
-    step = ladder.after_solve(
-        {one.status == Status::converged, size_of_highest(rod.model(), rod.work().y), tip_of(rod)});
+    step = ladder.after_solve({one.status == Status::converged, rod.model(), rod.work().y, tip_of(rod)});
     if (ladder.stands()) found = one;
   }
   found.iterations = iterations;
@@ -362,7 +361,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   const bool by_energy = options.balance == ArmBalance::energy;
   ResolutionLadder ladder(options, arm.length(), impl);
   ResolutionLadder::Step first =
-      ladder.begin(warm, warm ? size_of_highest(impl.rod().model(), impl.rod().work().y) : 0);
+      ladder.begin(warm, warm ? size_of_variation(impl.rod().model(), impl.rod().work().y) : 0);
   LoadedRod& rod = rods.at(first.level);
   if (!warm && !options.from_curvatures.empty()) {
     take_curvatures(options.from_curvatures, rod.model(), rod.work().y);
@@ -378,7 +377,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   const strain::Relaxed found = climb(ladder, first, rods, [&](LoadedRod& asked) {
     return by_energy ? asked.relax(relax) : relax_published(arm, commands, options, relax, warm, asked);
   });
-  state.resolution = impl.checked;
+  state.resolution = impl.told;
   impl.balances = found.status == Status::converged;
   set_report(state.report, found, impl, impl.rod());
   if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));

@@ -27,20 +27,26 @@ int finer_than(int level) { return ((level + 1) / 2 + 1) * 2; }
 /// The one of the table before it.
 int coarser_than(int level) { return (level + 1) / 2 * 2 - 2; }
 
-/// By how much the elements of one level lower the error of another: as the fourth power of their length, the
-/// order of frames and quadrature.
-double error_ratio(const ArmOptions& options, int level, int finer) {
-  const double share = static_cast<double>(resolution_at(options, finer).elements) /
-                       static_cast<double>(resolution_at(options, level).elements);
-  return share * share * share * share;
+/// The order of frames and quadrature: errors fall with this power of the length of elements.
+constexpr double full_power = 4;
+/// Where polynomials are still too coarse for that they fall more slowly, and this slowly at worst.
+constexpr double least_power = 0.5;
+
+double elements_at(const ArmOptions& options, int level) {
+  return static_cast<double>(resolution_at(options, level).elements);
+}
+
+/// What the elements of one level leave of the error of another.
+double error_share(const ArmOptions& options, int level, int finer, double power) {
+  return std::pow(elements_at(options, finer) / elements_at(options, level), -power);
 }
 
 /// From where an error stands at a level, the level whose next one is to bring it below a bound, if elements
 /// rule it; one that has a next, against which it can be checked.
-int level_for(const ArmOptions& options, int level, double error, double bound) {
+int level_for(const ArmOptions& options, int level, double error, double bound, double power) {
   int to = level;
   while (finer_than(finer_than(to)) < level_count(options) &&
-         error > bound * error_ratio(options, level, finer_than(to)))
+         error * error_share(options, level, finer_than(to), power) > bound)
     to = finer_than(to);
   return to;
 }
@@ -49,8 +55,40 @@ double distance(const strain::Three& a, const strain::Three& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
+strain::Three difference(const strain::Three& a, const strain::Three& b, double share) {
+  return {share * (a[0] - b[0]), share * (a[1] - b[1]), share * (a[2] - b[2])};
+}
+
 /// From where on a tip that moves says nothing of errors, over the arm's length.
 constexpr double far = 1e-3;
+/// How far from a shape whose error is known it is taken for known, over that shape's size, while nothing
+/// tells how it changes.
+constexpr double first_reach = 0.04;
+/// How much farther than it was last followed, and how far at most.
+constexpr double reach_growth = 3, most_reach = 0.5;
+/// What is taken of the fastest change of the error that was seen, and what is kept of it at each check.
+constexpr double slope_safety = 1.3, slope_kept = 0.5;
+
+/// Of coordinates, or of what they differ by; over √(EI/L), so about radians.
+struct Size {
+  double all, varying;  ///< varying: of bending and torsion, what is not constant on a stretch
+};
+/// @param from may be empty
+Size size_of(const strain::RodModel& model, std::span<const double> y, std::span<const double> from) {
+  double all = 0, varying = 0;
+  const auto square = [&](int i) {
+    const double value = y[at(i)] - (from.empty() ? 0.0 : from[at(i)]);
+    return value * value;
+  };
+  for (int i = 0; i < model.size; ++i) all += square(i);
+  for (const strain::Piece& piece : model.pieces)
+    for (std::size_t c = 3; c < 6; ++c) {
+      const int modes = piece.modes[c] / piece.stretches, first = piece.first + piece.offset[c];
+      for (int k = 0; k < piece.modes[c]; ++k)
+        if (k % modes > 0) varying += square(first + k);
+    }
+  return {std::sqrt(all / model.energy_scale), std::sqrt(varying / model.energy_scale)};
+}
 
 }  // namespace
 
@@ -64,18 +102,8 @@ Resolution resolution_at(const ArmOptions& options, int level) {
   return {level % 2 == 0 ? finer.order : resolutions[at(level / 2)].order, finer.elements};
 }
 
-double size_of_highest(const strain::RodModel& model, const std::vector<double>& y) {
-  double sum = 0;
-  for (const strain::Piece& piece : model.pieces)
-    for (std::size_t c = 3; c < 6; ++c)
-      if (piece.modes[c] > piece.stretches) {
-        for (int k = 1; k <= piece.stretches; ++k) {
-          const double value =
-              y[at(piece.first + piece.offset[c] + k * (piece.modes[c] / piece.stretches) - 1)];
-          sum += value * value;
-        }
-      }
-  return std::sqrt(sum / model.energy_scale);
+double size_of_variation(const strain::RodModel& model, const std::vector<double>& y) {
+  return size_of(model, y, {}).varying;
 }
 
 ResolutionLadder::ResolutionLadder(const ArmOptions& options, double length, Rung& rung)
@@ -88,14 +116,20 @@ ResolutionLadder::ResolutionLadder(const ArmOptions& options, double length, Run
 
 ResolutionLadder::Step ResolutionLadder::begin(bool warm, double size) {
   if (!warm) rung_->level = 0;
+  if (!warm || !refines_) {  // nothing of questions before
+    rung_->told = rung_->checked = rung_->checked_size = 0;
+    rung_->power = full_power;
+    rung_->checked_level = -1;
+  }
+  last_move_ = move_before_ = {};
   const int last = rung_->level, coarser = coarser_than(last);
   knows_ = warm;
   if (warm && refines_ && coarser >= 0) {  // what came before may have been harder to resolve
     const double shrunk = std::min(1.0, size / rung_->checked_size);
-    knows_ = !(rung_->checked * shrunk * shrunk * error_ratio(options_, coarser, last) <= 0.3 * wanted_);
+    knows_ = !(rung_->checked * shrunk * shrunk <=
+               0.7 * wanted_ * error_share(options_, coarser, last, rung_->power));
     if (!knows_) rung_->level = coarser;
   }
-  if (!refines_) rung_->checked = rung_->checked_size = 0;
   return aim(Aim::answer, rung_->level, last);
 }
 
@@ -103,9 +137,7 @@ ResolutionLadder::Step ResolutionLadder::after_solve(const Solved& solved) {
   stands_ = false;
   switch (aim_) {
     case Aim::answer:
-      stands_ = true;
-      size_ = solved.size;
-      tip_ = solved.tip;
+      stand(solved);
       return solved.converged ? go_on() : answer();
     case Aim::leaner:
       return leaner_does(solved) ? answer() : beyond();
@@ -116,15 +148,16 @@ ResolutionLadder::Step ResolutionLadder::after_solve(const Solved& solved) {
       break;
   }
   const double moved = distance(solved.tip, tip_);
-  rung_->checked = moved * ratio_ / (ratio_ - 1);
-  rung_->checked_size = size_;
-  if (solved.converged && rung_->checked <= wanted_) return answer();  // the coarse one does
-  stands_ = true;
-  size_ = solved.size;
-  tip_ = solved.tip;
+  watch(moved);
+  const double off = moved * ratio_ / (ratio_ - 1);
+  if (solved.converged && off <= wanted_) {  // the coarse one does
+    know(difference(solved.tip, tip_, ratio_ / (ratio_ - 1)), off);
+    return answer();
+  }
+  left_by_ = difference(solved.tip, tip_, 1 / (ratio_ - 1));
+  stand(solved);
   rung_->level = next_;
-  rung_->checked = moved / (ratio_ - 1);
-  rung_->checked_size = size_;
+  know(left_by_, moved / (ratio_ - 1));
   if (!solved.converged) return answer();
   if (rung_->checked > wanted_ || moved >= far * length_) return go_on();
   off_ = rung_->checked;
@@ -132,31 +165,99 @@ ResolutionLadder::Step ResolutionLadder::after_solve(const Solved& solved) {
   return aim(Aim::leaner_at_last, next_ - 1, next_);
 }
 
+/// The tip moves by so much from the level of the rung to the next one. Two such moves one after the other
+/// tell with which power of the elements' length errors fall; where that is clearly less than their order,
+/// errors are taken to go on so.
+void ResolutionLadder::watch(double moved) {
+  const Move now{elements_at(options_, rung_->level), elements_at(options_, next_), moved};
+  if (now.fewer != last_move_.fewer || now.more != last_move_.more) move_before_ = last_move_;
+  last_move_ = now;
+  const auto part = [](const Move& move, double power) {
+    return std::pow(move.fewer, -power) - std::pow(move.more, -power);
+  };
+  const auto expected = [&](double power) { return part(move_before_, power) / part(now, power); };
+  if (move_before_.size > 0 && moved > 0) {
+    const double fallen = move_before_.size / moved;
+    double low = least_power, high = full_power;
+    if (fallen >= 0.5 * expected(high)) low = high;
+    while (high - low > 0.01) {
+      const double middle = 0.5 * (low + high);
+      (expected(middle) > fallen ? high : low) = middle;
+    }
+    rung_->power = low;
+  }
+  ratio_ = 1 / error_share(options_, rung_->level, next_, rung_->power);
+}
+
+void ResolutionLadder::stand(const Solved& solved) {
+  stands_ = true;
+  model_ = &solved.model;
+  y_ = solved.y;
+  tip_ = solved.tip;
+}
+
 /// After an equilibrium that stands for an answer.
 ResolutionLadder::Step ResolutionLadder::go_on() {
   if (!refines_) return answer();
-  const double grown = std::max(1.0, size_ / rung_->checked_size);
-  if (knows_ && grown <= 1.5 && rung_->checked * grown * grown <= wanted_) return answer();
+  const bool is_first = knows_;
+  if (knows_ && is_near()) return answer();
   knows_ = false;
   next_ = finer_than(rung_->level);
   if (next_ >= count_) {  // nothing has more elements: back to where the last step began, or it ends here
-    if (rung_->level % 2 == 0) return answer();
-    --rung_->level;
-    return aim(Aim::answer, rung_->level, rung_->level + 1);
+    if (rung_->level % 2 == 0 && !is_first) return answer();
+    const int from = rung_->level;
+    rung_->level = from % 2 == 0 ? coarser_than(from) : from - 1;
+    return aim(Aim::answer, rung_->level, from);
   }
   return {Step::Kind::compare, next_, rung_->level};
 }
 
+/// Whether the answer is so near to the one that was checked last that its error is small enough as well.
+bool ResolutionLadder::is_near() {
+  if (rung_->checked_level != rung_->level || rung_->checked_y.size() != y_.size()) return false;
+  const double way = way_from_checked();
+  if (!(way <= rung_->reach)) return false;
+  rung_->told = rung_->checked + slope_safety * rung_->slope * way;
+  return rung_->told <= wanted_;
+}
+
+double ResolutionLadder::way_from_checked() const {
+  const Size by = size_of(*model_, y_, rung_->checked_y);
+  return by.all + rung_->weight * by.varying;
+}
+
+/// What stands has this error.
+/// @param size of it at most [m]
+void ResolutionLadder::know(const strain::Three& error, double size) {
+  Rung& rung = *rung_;
+  const Size now = size_of(*model_, y_, {});
+  rung.told = size;
+  const bool is_same = rung.checked_level == rung.level && rung.checked_y.size() == y_.size();
+  const double way = is_same ? way_from_checked() : 0;
+  if (!is_same) {
+    rung.slope = 2 * size / now.all;
+    rung.reach = first_reach * now.all;
+  } else if (way > 0.01 * first_reach * now.all) {
+    rung.slope = std::max(distance(error, rung.error) / way, slope_kept * rung.slope);
+    rung.reach = std::clamp(reach_growth * way, first_reach * now.all, most_reach * now.all);
+  }
+  rung.checked = size;
+  rung.checked_size = now.varying;
+  rung.checked_level = rung.level;
+  rung.error = error;
+  rung.weight = now.varying > 0 ? now.all / now.varying : 0;
+  rung.checked_y.assign(y_.begin(), y_.end());
+}
+
 ResolutionLadder::Step ResolutionLadder::after_comparison(const strain::Approach& near) {
-  near_ = near;
-  ratio_ = error_ratio(options_, rung_->level, next_);
   if (!near.close) return aim(Aim::finer, next_, rung_->level);
+  watch(near.moved);
   if (const double off = near.moved * ratio_ / (ratio_ - 1); off <= wanted_) {
-    rung_->checked = off;
-    rung_->checked_size = size_;
+    know(difference(near.tip, tip_, ratio_ / (ratio_ - 1)), off);
     return answer();
   }
   left_ = near.moved / (ratio_ - 1);
+  left_by_ = difference(near.tip, tip_, 1 / (ratio_ - 1));
   if (left_ <= wanted_ && near.moved < far * length_) {
     off_ = left_ + near.rest;
     reference_ = near.tip;
@@ -167,10 +268,11 @@ ResolutionLadder::Step ResolutionLadder::after_comparison(const strain::Approach
 
 /// After a comparison that told the finer one is needed, or one beyond it.
 ResolutionLadder::Step ResolutionLadder::beyond() {
-  const int to = level_for(options_, next_, left_, 0.5 * wanted_);
+  const int to = level_for(options_, next_, left_, 0.5 * wanted_, rung_->power);
   if (to == next_) return aim(Aim::finer, next_, next_);
   rung_->level = to;
-  rung_->checked = left_;
+  rung_->checked = rung_->told = left_;
+  rung_->checked_level = -1;
   return aim(Aim::answer, to, next_);
 }
 
@@ -178,10 +280,11 @@ ResolutionLadder::Step ResolutionLadder::beyond() {
 bool ResolutionLadder::leaner_does(const Solved& solved) {
   const double all = off_ + distance(solved.tip, reference_);
   if (!solved.converged || all > wanted_) return false;
-  stands_ = true;
+  stand(solved);
   rung_->level = next_ - 1;
-  rung_->checked = all;
-  rung_->checked_size = solved.size;
+  strain::Three error = difference(reference_, solved.tip, 1);
+  for (std::size_t i = 0; i < 3; ++i) error[i] += left_by_[i];
+  know(error, all);
   return true;
 }
 

@@ -4,6 +4,8 @@
 /// what came of it. Theory: docs/theory/strain_rod.md
 #pragma once
 #include <array>
+#include <span>
+#include <vector>
 
 #include "sinew/kinematics/arm.hpp"
 #include "strain/relax.hpp"
@@ -20,14 +22,27 @@ struct Resolution {
 int level_count(const ArmOptions& options);
 /// Order and elements of a level, where there are several.
 Resolution resolution_at(const ArmOptions& options, int level);
-/// Of the highest modes of bending: what a polynomial of this order may lack.
-double size_of_highest(const strain::RodModel& model, const std::vector<double>& y);
+/// Of bending and torsion what is not constant along a piece, over √(EI/L): what errors come from. The
+/// highest modes alone would not tell: by symmetry they may be next to none.
+double size_of_variation(const strain::RodModel& model, const std::vector<double>& y);
 
 /// What the last question leaves to the next one.
 struct Rung {
-  int level = -1;           ///< what the last answer was found with; −1: there is none
-  double checked_size = 0;  ///< size of the highest modes when the resolution was last checked
-  double checked = 0;       ///< what that check gave [m]
+  int level = -1;    ///< what the last answer was found with; −1: there is none
+  double told = 0;   ///< how far its tip may be off [m]
+  double power = 4;  ///< of the elements' length with which errors fall [1]
+
+  /// @name Of the answer whose error was looked at last
+  /// @{
+  int checked_level = -1;    ///< −1: there is none to go by
+  double checked_size = 0;   ///< size_of_variation()
+  double checked = 0;        ///< the error [m]
+  strain::Three error = {};  ///< what the tip lacks [m]
+  std::vector<double> checked_y;
+  double weight = 0;  ///< of differences of the variation in ways from it
+  double slope = 0;   ///< how fast the error changed on such ways [m]
+  double reach = 0;   ///< ways on which that may be relied upon
+  /// @}
 };
 
 class ResolutionLadder {
@@ -43,7 +58,8 @@ class ResolutionLadder {
   /// What came of a solve.
   struct Solved {
     bool converged;
-    double size;  ///< size_of_highest()
+    const strain::RodModel& model;
+    std::span<const double> y;  ///< stays until another solve at this level
     strain::Three tip;
   };
 
@@ -52,7 +68,7 @@ class ResolutionLadder {
 
   /// The first step: a solve.
   /// @param warm the rung's answer is known
-  /// @param size size_of_highest() of that answer
+  /// @param size size_of_variation() of that answer
   Step begin(bool warm, double size);
   Step after_solve(const Solved& solved);
   Step after_comparison(const strain::Approach& near);
@@ -71,8 +87,18 @@ class ResolutionLadder {
     finer,          ///< to be compared
     leaner_at_last  ///< as `leaner`, after a solve of the finer one
   };
+  /// How far the tip moves between two numbers of elements.
+  struct Move {
+    double fewer = 0, more = 0;
+    double size = 0;  ///< [m]; 0: not known
+  };
+  void watch(double moved);
+  void stand(const Solved& solved);
   Step go_on();
   Step beyond();
+  bool is_near();
+  double way_from_checked() const;
+  void know(const strain::Three& error, double size);
   bool leaner_does(const Solved& solved);
   Step answer() const { return {Step::Kind::answer, rung_->level, rung_->level}; }
   Step aim(Aim what, int level, int from) {
@@ -88,12 +114,14 @@ class ResolutionLadder {
   bool knows_ = false;  ///< how large the error is, from the question before
   bool stands_ = false;
   Aim aim_ = Aim::answer;
-  int next_ = 0;                 ///< the level that is compared with
-  double size_ = 0;              ///< of what stands
-  strain::Three tip_{};          ///< of what stands [m]
-  strain::Approach near_ = {};   ///< the last comparison
+  int next_ = 0;                             ///< the level that is compared with
+  const strain::RodModel* model_ = nullptr;  ///< of what stands
+  std::span<const double> y_;                ///< of what stands
+  strain::Three tip_{};                      ///< of what stands [m]
+  Move last_move_ = {}, move_before_ = {};
   double ratio_ = 1, left_ = 0;  ///< of errors; what the finer one is off [m]
   strain::Three reference_{};    ///< the tip that a leaner one is to meet [m]
+  strain::Three left_by_{};      ///< what the finer one's tip lacks [m]
   double off_ = 0;               ///< by how much that is off at most [m]
 };
 

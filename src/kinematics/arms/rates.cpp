@@ -4,14 +4,12 @@
 #include "kinematics/arms/arm_work.hpp"
 
 namespace sinew::inline v1 {
-namespace {
 
-/// Twists of the tip by coordinates, in base axes: 6 rows of `size`.
-std::vector<double> tip_rows(const strain::LoadedRod& rod) {
-  const int n = rod.model().size;
+std::vector<double> tip_rows(const strain::RodModel& model, const strain::RodWork& work) {
+  const int n = model.size;
   std::vector<double> body(at(6 * n)), rows(at(6 * n), 0.0);
-  tip_twists(rod.model(), rod.work(), body.data());
-  const double* R = rod.work().frames.back().R;
+  tip_twists(model, work, body.data());
+  const double* R = work.frames.back().R;
   for (int half = 0; half < 6; half += 3)
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k)
@@ -19,6 +17,8 @@ std::vector<double> tip_rows(const strain::LoadedRod& rod) {
           rows[at((half + i) * n + j)] += R[3 * i + k] * body[at((half + k) * n + j)];
   return rows;
 }
+
+namespace {
 
 double product(const double* a, const double* b, int n, int stride) {
   double sum = 0;
@@ -43,7 +43,7 @@ ArmRates arm_rates(const Arm& arm, ArmWorkspace& work, bool margin) {
   rod.linearise(true);
   rates.regular = rod.factor_all(0) >= 0;
   if (!rates.regular) return rates;
-  const std::vector<double> tip = tip_rows(rod);
+  const std::vector<double> tip = tip_rows(rod.model(), rod.work());
   const double* gradients = rod.work().length_gradient.data();
   const std::vector<int> active(rod.active().begin(), rod.active().end());
   const auto place_of = [&](int tendon) {

@@ -497,6 +497,8 @@ LegsTrack read_legs_track(Context& context) {
       given->fail("not_available",
                   "legs of sections are followed along points: [{pose: ...}, ...], or tensions, changes and "
                   "loads");
+  if (const auto given = context.query.optional("motions"))
+    given->fail("not_available", "tendons of legs of sections do not rub; ask velocity for their rates");
   LegsTrack asked;
   asked.options.arm = read_legs_options(context);
   asked.path = read_legs_points(context, *context.robot.arm_legs());

@@ -99,11 +99,36 @@ Value one_sided(ArmContext& context, std::size_t tendon, double way) {
   return value;
 }
 
+/// What is linear around a direction in which tendons move.
+Value in_motion(ArmContext& context, std::span<const double> motions) {
+  const Arm& arm = context.robot;
+  const ArmPathRates rates = arm_path_rates(arm, motions, context.work, true);
+  if (!rates.regular) return {{"message", rates.message.view()}};
+  const auto m = static_cast<Eigen::Index>(rates.tendons);
+  const auto all_known = [](const std::vector<double>& values) {
+    return std::ranges::all_of(values, [](double rate) { return std::isfinite(rate); });
+  };
+  Value value{{"twist", rates.twist}, {"changes", by_end_section(arm, rates.changes)}};
+  const bool knows_tensions = all_known(rates.tensions_by_inputs);
+  if (knows_tensions) value["tensions"] = by_end_section(arm, rates.tensions);
+  value["slipping"] = rates.slipping;
+  value["U"] = Value(MatrixView(rates.J.data(), 6, m));
+  value["changes_by_inputs"] = Value(MatrixView(rates.changes_by_inputs.data(), m, m));
+  if (knows_tensions) value["tensions_by_inputs"] = Value(MatrixView(rates.tensions_by_inputs.data(), m, m));
+  value["compliance"] = Value(MatrixView(rates.compliance.data(), 6, 6));
+  value["changes_by_wrench"] = Value(MatrixView(rates.changes_by_wrench.data(), m, 6));
+  if (knows_tensions) value["tensions_by_wrench"] = Value(MatrixView(rates.tensions_by_wrench.data(), m, 6));
+  value["least"] = by_end_section(arm, rates.least);
+  value["most"] = by_end_section(arm, rates.most);
+  return value;
+}
+
 struct ArmTrack {
   ArmOptions options;
   std::vector<ArmStep> path;
   Wants words;
   int samples = 0;
+  std::optional<std::vector<double>> motions = {};
 };
 
 ArmTrack read_track(ArmContext& context) {
@@ -113,6 +138,11 @@ ArmTrack read_track(ArmContext& context) {
   read_arm_start(context, asked.options);
   asked.words = read_wants(context, {Want::pose}, {Want::pose, Want::shape, Want::velocity});
   asked.samples = read_samples(context, asked.words, 60, 2000);
+  if (const auto given = context.query.optional("motions")) {
+    asked.motions = read_arm_motions(context.robot, *given);
+    if (context.errors.empty() && std::ranges::all_of(*asked.motions, [](double rate) { return rate == 0; }))
+      given->fail("out_of_range", "all tendons rest: give a rate other than 0 for one that moves");
+  }
   return asked;
 }
 
@@ -162,6 +192,7 @@ void answer_track(ArmContext& context, const ArmTrack& asked) {
       list.push_back({{"growing", one_sided(context, i, 1)}, {"shrinking", one_sided(context, i, -1)}});
     answer["one_sided"] = std::move(list);
   }
+  if (asked.motions && arrives) answer["in_motion"] = in_motion(context, *asked.motions);
   answer["motor_work"] = work;
   answer["friction_loss"] = loss;
   answer["residual"] = worst;

@@ -77,6 +77,14 @@ std::vector<TendonCommand> read_arm_commands(const std::vector<std::size_t>& cou
   return commands;
 }
 
+std::vector<double> read_arm_motions(const Arm& arm, const Reader& list) {
+  std::vector<double> rates;
+  for (const auto& value :
+       read_of_tendons(tendons_by_section(arm), list, Dimension::number, {.low = -1e9, .high = 1e9}))
+    rates.push_back(value.value_or(0));
+  return rates;
+}
+
 namespace {
 
 std::array<double, 6> read_arm_wrench(const Reader& list) {

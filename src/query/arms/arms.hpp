@@ -26,6 +26,9 @@ struct ArmContext : Question {
 std::vector<TendonCommand> read_arm_commands(const Arm& arm, Reader& place);
 /// The same where a section has as many tendons as `counts` says: of a platform, sections of leg 0 first.
 std::vector<TendonCommand> read_arm_commands(const std::vector<std::size_t>& counts, Reader& place);
+/// Of every tendon how fast what holds it changes [N/s] or [m/s]: those of each section, 0 where none is
+/// given.
+std::vector<double> read_arm_motions(const Arm& arm, const Reader& list);
 /// How many tendons end at each section.
 std::vector<std::size_t> tendons_by_section(const Arm& arm);
 /// Loads of a question, or of a point of a path.

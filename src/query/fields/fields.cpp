@@ -143,6 +143,7 @@ return std::array{
     Field{"points", path_points, number, {.track = of_arms},
           "the path of an arm, whose tendons rub, or of a platform on legs of sections, whose tendons do not: a list of tensions or changes, as `forward` takes them, of such a platform also of a pose, and where they change wrench, following, distributed, distributed_following, loads, gravity"},
     Field{"steps", whole, count, {.track = of_arms}, "even ones to each point of an arm's path, a row each; default 10; finer ones tell more of what slips first"},
+    Field{"motions", lists, number, {.track = of_arms}, "of the tendons of each section of an arm in which direction, and how fast [N/s, m/s], what holds them goes on where the path ends: a change > 0 pays out, null rests. The answer has the rates there, with friction, as matrices"},
     Field{"from", place, length, {.track = of_platforms}, "first pose of a path, of rods with three inputs z, e1 and e2"},
     Field{"to", target, length, {.track = of_platforms}, "last pose of a path; of a curve of equilibria what changes along it: inputs, tensions, lengths, wrench, pose"},
     Field{"objective", word, number, {.track = of_kinematic | of_chains}, "what redundant legs do with their freedom: limits, singularity, smooth or none", objectives},

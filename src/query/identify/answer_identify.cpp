@@ -110,6 +110,10 @@ std::string read_fit(const Reader& fit) {
 
 IdentificationRequest read_request(ArmContext& context, const std::optional<MeasuredRows>& rows) {
   IdentificationRequest request{.max_iterations = context.max_iterations, .stop = context.work.stop};
+  if (context.progress && *context.progress)
+    request.progress = [call = context.progress](const std::string& part, int steps, double rms) {
+      (*call)({part, steps, rms});
+    };
   Reader& query = context.query;
   if (const auto model = query.optional("model")) {
     std::vector<std::string_view> words;
