@@ -155,6 +155,12 @@ std::vector<std::array<double, 6>> unstable_twists(const RodGroup& system) {
   return twists;
 }
 
+double energy_of(std::span<const RodResult> rods) {
+  double energy = 0;
+  for (const RodResult& rod : rods) energy += rod.energy;
+  return energy;
+}
+
 RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
   RodGroup& system = *work.system;
   RodAnalysis analysis;
@@ -190,8 +196,8 @@ RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
         leg.link.is_round() ? rod.largest_curvature * leg.link.diameter / 2 : rod.largest_strain;
     analysis.largest_strain = std::max(analysis.largest_strain, strain);
   });
-  analysis.energy = system.energy();
-  analysis.potential = system.potential();
+  analysis.energy = energy_of(analysis.rods);
+  analysis.potential = system.potential(analysis.energy);
   analysis.smallest_pivot = factors.smallest_pivot();
   return analysis;
 }
@@ -313,11 +319,12 @@ double by_energy(const FoundEquilibrium& one) {
 FoundEquilibrium found_equilibrium(const Report& report, RodWork& rods, Workspace& work) {
   const RodGroup& system = *rods.system;
   const Equilibrium answer = answer_of(report, system, work, false);
+  const std::vector<RodResult> held = system.readings();
   return {.pose = answer.pose,
           .inputs = {answer.inputs.begin(), answer.inputs.end()},
-          .rods = system.readings(),
+          .rods = held,
           .residual = report.residual,
-          .potential = system.potential(),
+          .potential = system.potential(energy_of(held)),
           .unstable_directions = count_unstable_rods(rods).unstable};
 }
 
