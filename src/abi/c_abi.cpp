@@ -41,6 +41,7 @@ struct sinew_session : sinew_object {
   }
   void stop() override { is_to_stop = true; }
   sinew::Session session;
+  std::string text;  ///< of the answer last written
   std::atomic<bool> is_to_stop = false;
 };
 
@@ -142,7 +143,8 @@ char* sinew_ask(sinew_session* session, const char* question, std::size_t size, 
   };
   session->is_to_stop = false;
   try {
-    return answer(session->session.answer({question, size}));
+    session->session.answer({question, size}, session->text);
+    return answer(session->text);
   } catch (const std::bad_alloc&) {
     return nullptr;
   } catch (const std::exception&) {

@@ -302,7 +302,7 @@ bool NodeBuilder::key(std::string_view key, int line, int column) {
   return true;
 }
 
-bool NodeBuilder::scalar(Node node) {
+bool NodeBuilder::scalar(Node&& node) {
   if (!count(node.line, node.column)) return false;
   slot() = std::move(node);
   return true;
