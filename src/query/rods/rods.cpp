@@ -36,9 +36,9 @@ EquilibriumOptions read_equilibrium_options(Context& context) {
 
 IndependentPose read_independent(const Context& context, Reader& asked) {
   IndependentPose pose;
-  pose.z = asked.required("z", "height of the platform").quantity(Dimension::length, Range::place());
-  pose.e1 = asked.required("e1", "a component of its quaternion").number(Range::between(-1, 1));
-  pose.e2 = asked.required("e2", "a component of its quaternion").number(Range::between(-1, 1));
+  pose.z = asked.required("z", "height of the platform").quantity(Dimension::length, PoseRange::coordinate);
+  pose.e1 = asked.required("e1", "a component of its quaternion").number(PoseRange::component);
+  pose.e2 = asked.required("e2", "a component of its quaternion").number(PoseRange::component);
   if (const auto mode = asked.optional("mode"))
     mode->refuse("no_effect", "rods have no such modes, hinges have; leave it out");
   if (asked.is(Node::Kind::map)) asked.close();
