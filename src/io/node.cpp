@@ -297,7 +297,10 @@ bool NodeBuilder::key(std::string_view key, int line, int column) {
                      line > 0 ? fmt::format("; it was first given at line {}", *first) : ""));
     if (errors_.size() >= 100) return false;  // nobody mends more at once
   }
-  level.node->members.push_back({.key = std::string(key), .line = line, .column = column, .value = {}});
+  Member& member = level.node->members.emplace_back();
+  member.key = key;
+  member.line = line;
+  member.column = column;
   level.has_key = true;
   return true;
 }
