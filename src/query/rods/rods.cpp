@@ -210,8 +210,9 @@ void put_rod_wants(Context& context, const Equilibrium& found, const RodWants& w
   Value& answer = context.answer;
   if (words.has(Want::pose)) answer["pose"] = pose_value(found.pose);
   answer["inputs"] = found.inputs;
-  if (!(words - Wants{Want::pose, Want::shape}).is_empty()) {
-    const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
+  if (const Wants more = words - Wants{Want::pose, Want::shape}; !more.is_empty()) {
+    const RodAnalysis analysis = more == Wants{Want::legs} ? read_rods(context.robot, context.work)
+                                                           : analyse_equilibrium(context.robot, context.work);
     if (words.has(Want::legs)) {
       answer["legs"] = legs_of(context, found, analysis);
       answer["energy"] = analysis.energy;
