@@ -29,6 +29,7 @@ constexpr std::array own_options{
     Option{"plan", "FILE",
            "of serve a way into the scene, as sinew plan writes it; more than one may be given", 0, true},
     Option{"port", "PORT", "of serve; default 8765, 0 is any that is free"},
+    Option{"frame", "", "of serve: pages of this machine, such as notebooks, may show the page in a frame"},
     Option{"demo", "", "of serve: a simulated device, moved by the panel's firmware"},
     Option{"device", "PATH", "of serve the serial port of the robot's controller, as /dev/ttyACM0"},
     Option{"baud", "RATE", "of the device; default 1000000"},

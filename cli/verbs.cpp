@@ -212,7 +212,8 @@ const std::array table{
         "serve",
         "[ROBOT]",
         "queries over HTTP, on this machine or with a token from others",
-        {"scene", "plan", "host", "port", "demo", "device", "baud", "record", "stage-motor", "quiet", "help"},
+        {"scene", "plan", "host", "port", "frame", "demo", "device", "baud", "record", "stage-motor", "quiet",
+         "help"},
         {},
         "Prints the address and answers there until Ctrl-C. The calls are in docs/server.md. Nothing is read "
         "but\n"

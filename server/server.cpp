@@ -22,9 +22,14 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-constexpr const char* policy =
-    "default-src 'self'; img-src 'self' blob: data:; media-src 'self' blob:; style-src 'self'; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; object-src 'none'";
+/// @param is_framed by pages of this machine, at any port; else by none: what a page lies over could be
+/// clicked unseen
+std::string policy(bool is_framed) {
+  return fmt::format(
+      "default-src 'self'; img-src 'self' blob: data:; media-src 'self' blob:; style-src 'self'; "
+      "base-uri 'none'; form-action 'none'; frame-ancestors {}; object-src 'none'",
+      is_framed ? "http://127.0.0.1:* http://localhost:*" : "'none'");
+}
 
 /// As it is: httplib would compress what it is given as a text, each time.
 void put_bytes(Response& response, std::string_view text, std::string_view type,
@@ -338,7 +343,7 @@ void Server::State::limit() {
           refused(405, "not_available", "method", "GET and POST are answered, and DELETE of a job"));
     return is_answered && lets_in(request, response) ? Unhandled : Handled;
   });
-  http.set_default_headers({{"Content-Security-Policy", policy},
+  http.set_default_headers({{"Content-Security-Policy", policy(options.is_framed)},
                             {"Permissions-Policy", "camera=(self), serial=()"},
                             {"X-Content-Type-Options", "nosniff"},
                             {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -377,6 +382,9 @@ Server& Server::operator=(Server&&) noexcept = default;
 Server::~Server() = default;
 
 Expected<Server> Server::open(const Options& options) {
+  if (options.is_framed && !is_loopback(options.address))
+    return failure("not_available", "--frame",
+                   "a frame shows the page of this machine's own address alone; leave --host or --frame out");
   auto state = std::make_unique<State>(options);
   if (const auto errors = state->calls.read_opened()) return tl::unexpected(*errors);
   state->limit();

@@ -58,6 +58,9 @@ struct Options {
   std::string scene;               ///< file of the scene that the plans are of; empty: none
   std::vector<std::string> plans;  ///< files of insertions into it
   DeviceChoice device;
+  /// Pages of this machine, such as notebooks, may show the page in a frame of theirs. Not with a token: the
+  /// browser keeps its cookie from frames of other sites.
+  bool is_framed = false;
   Limits limits;
 };
 
@@ -65,7 +68,8 @@ struct Options {
 class Server {
  public:
   /// Errors: those of the files of robot, scene and plans; `not_built` where there are plans;
-  /// those of device::Device::open; `address_in_use`, `bad_address`.
+  /// those of device::Device::open; `address_in_use`, `bad_address`;
+  /// `not_available` of a frame at another address than this machine's own.
   static Expected<Server> open(const Options& options);
 
   /// What to open in a browser. Of another address than this machine's own with a token that lets in.

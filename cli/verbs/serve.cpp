@@ -61,6 +61,7 @@ Expected<server::Options> read_options(const Arguments& arguments) {
     if (!port) return tl::unexpected(port.error());
     options.port = *port;
   }
+  options.is_framed = arguments.has("frame");
   const auto device = read_device(arguments);
   if (!device) return tl::unexpected(device.error());
   options.device = *device;

@@ -30,6 +30,8 @@ class SINEW_API Session {
   /// One query `{"query": "forward", ...}` in, one answer out, without a line break. Never throws on bad
   /// input: the answer then is `{"error": {"code", "where", "message"}}`.
   std::string answer(std::string_view query);
+  /// The same into a text, whose memory serves the next answer.
+  void answer(std::string_view query, std::string& text);
   /// The same from tree to tree, for who asks and reads in this process. The limits of texts, which keep
   /// strangers harmless, do not apply: an answer may be as large as it is.
   Document answer(const Document& query);

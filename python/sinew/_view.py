@@ -52,8 +52,9 @@ class View:
                              "not_available", "set")
         program = command()
         self._folder = tempfile.TemporaryDirectory(prefix="sinew-")
-        self._process = subprocess.Popen([program, "serve", _source(robot, self._folder.name), "--port", str(port)],
-                                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self._is_frame = _in_notebook()
+        arguments = [program, "serve", _source(robot, self._folder.name), "--port", str(port)] + ["--frame"] * self._is_frame
+        self._process = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert self._process.stdout and self._process.stderr
         self.url = self._process.stdout.readline().strip()
         self._readers: list[threading.Thread] = []
@@ -64,7 +65,6 @@ class View:
         for stream in (self._process.stdout, self._process.stderr):  # read, so that the server never waits for a reader
             self._readers.append(threading.Thread(target=stream.read, daemon=True))
             self._readers[-1].start()
-        self._is_frame = _in_notebook()
         if open_browser and not self._is_frame:
             import webbrowser
             webbrowser.open(self.url)

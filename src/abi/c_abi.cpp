@@ -69,6 +69,7 @@ struct sinew_session : sinew_object {
     so_far.reset();
   }
   sinew::Session session;
+  std::string text;  ///< of the answer last written
   std::atomic<bool> is_to_stop = false;
   std::mutex guard;  ///< of what follows
   bool is_busy = false;
@@ -185,9 +186,9 @@ char* sinew_ask(sinew_session* session, const char* question, std::size_t size, 
     if (asks_progress({question, size})) return answer(session->progress());
     session->is_to_stop = false;
     session->begin();
-    const std::string text = session->session.answer({question, size});
+    session->session.answer({question, size}, session->text);
     session->end();
-    return answer(text);
+    return answer(session->text);
   } catch (const std::bad_alloc&) {
     session->end();
     return nullptr;

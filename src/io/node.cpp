@@ -297,12 +297,15 @@ bool NodeBuilder::key(std::string_view key, int line, int column) {
                      line > 0 ? fmt::format("; it was first given at line {}", *first) : ""));
     if (errors_.size() >= 100) return false;  // nobody mends more at once
   }
-  level.node->members.push_back({.key = std::string(key), .line = line, .column = column, .value = {}});
+  Member& member = level.node->members.emplace_back();
+  member.key = key;
+  member.line = line;
+  member.column = column;
   level.has_key = true;
   return true;
 }
 
-bool NodeBuilder::scalar(Node node) {
+bool NodeBuilder::scalar(Node&& node) {
   if (!count(node.line, node.column)) return false;
   slot() = std::move(node);
   return true;

@@ -9,9 +9,9 @@ namespace sinew::inline v1 {
 
 PlanarPose read_planar_pose(Reader pose) {
   PlanarPose result;
-  result.x = pose.required("x").quantity(Dimension::length, Range::place());
-  result.y = pose.required("y").quantity(Dimension::length, Range::place());
-  result.phi = pose.required("phi").quantity(Dimension::angle);
+  result.x = pose.required("x").quantity(Dimension::length, PoseRange::coordinate);
+  result.y = pose.required("y").quantity(Dimension::length, PoseRange::coordinate);
+  result.phi = pose.required("phi").quantity(Dimension::angle, PoseRange::angle);
   pose.close();
   return result;
 }
@@ -25,7 +25,7 @@ std::optional<SO3<double>> read_tilt(Reader& pose) {
   for (const auto& [key, angle] :
        {std::pair{"tilt", &angles.tilt}, {"azimuth", &angles.azimuth}, {"torsion", &angles.torsion}})
     if (const auto given = pose.optional(key)) {
-      *angle = given->quantity(Dimension::angle);
+      *angle = given->quantity(Dimension::angle, PoseRange::angle);
       is_given = true;
     }
   return is_given ? std::optional(rotation_of(angles)) : std::nullopt;
@@ -35,13 +35,14 @@ std::optional<SO3<double>> read_tilt(Reader& pose) {
 
 SpatialPose read_spatial_pose(Reader pose) {
   SpatialPose result;
-  const auto position = pose.required("position", "[x, y, z]").array<3>(Dimension::length, Range::place());
+  const auto position =
+      pose.required("position", "[x, y, z]").array<3>(Dimension::length, PoseRange::coordinate);
   result.position = Vec3<double>(position[0], position[1], position[2]);
   if (const auto quaternion = pose.optional("quaternion")) {
-    result.quaternion = quaternion->array<4>(Dimension::number, Range::place());
+    result.quaternion = quaternion->array<4>(Dimension::number, PoseRange::coordinate);
     double square = 0;
     for (const double q : result.quaternion) square += q * q;
-    if (square < 1e-12) {
+    if (square < PoseRange::least_square) {
       quaternion->fail("no_rotation", "a quaternion [w, x, y, z] needs a component that is not 0");
       result.quaternion = {1, 0, 0, 0};
     }

@@ -8,6 +8,14 @@
 
 namespace sinew::inline v1 {
 
+/// What the numbers of poses may be: of questions that give one, and of rows, which put others in its place.
+struct PoseRange {
+  static constexpr Range coordinate = Range::place();        ///< x, y, z [m], and parts of quaternions
+  static constexpr Range angle = Range::turn();              ///< [rad]
+  static constexpr Range component = Range::between(-1, 1);  ///< e₁ and e₂, of `independent`
+  static constexpr double least_square = 1e-12;              ///< of a quaternion that tells a turn
+};
+
 /// `{x, y, phi}`, all required.
 SINEW_API PlanarPose read_planar_pose(Reader pose);
 

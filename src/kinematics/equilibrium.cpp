@@ -156,17 +156,38 @@ std::vector<std::array<double, 6>> unstable_twists(const RodGroup& system) {
   return twists;
 }
 
-RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
+double energy_of(std::span<const RodResult> rods) {
+  double energy = 0;
+  for (const RodResult& rod : rods) energy += rod.energy;
+  return energy;
+}
+
+RodAnalysis reading_of(const Robot& robot, RodWork& work) {
   RodGroup& system = *work.system;
   RodAnalysis analysis;
   if (!work.signs) {
     system.evaluate();
     system.linearise();
   }
+  for (int k = 0; k < system.closing_legs(); ++k) analysis.closing_forces.push_back(system.closing_force(k));
+  analysis.rods = system.readings();
+  for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
+    const RodResult& rod = analysis.rods[k++];
+    const double strain =
+        leg.link.is_round() ? rod.largest_curvature * leg.link.diameter / 2 : rod.largest_strain;
+    analysis.largest_strain = std::max(analysis.largest_strain, strain);
+  });
+  analysis.energy = energy_of(analysis.rods);
+  analysis.potential = system.potential(analysis.energy);
+  return analysis;
+}
+
+RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
+  RodAnalysis analysis = reading_of(robot, work);
+  RodGroup& system = *work.system;
   const LimbSigns signs = count_unstable_rods(work);
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness = system.platform_stiffness();
   std::copy_n(stiffness.data(), 36, analysis.stiffness.begin());
-  for (int k = 0; k < system.closing_legs(); ++k) analysis.closing_forces.push_back(system.closing_force(k));
   const SmallLu<6>& factors = system.factors();
   const auto inputs = at(system.inputs());
   analysis.sensitivity.resize(6 * inputs);
@@ -184,15 +205,6 @@ RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
   if (signs.unstable > signs.own) analysis.unstable = unstable_twists(system);
   analysis.unstable_directions = signs.unstable;
   analysis.unstable_rods = work.unstable_rods;
-  analysis.rods = system.readings();
-  for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
-    const RodResult& rod = analysis.rods[k++];
-    const double strain =
-        leg.link.is_round() ? rod.largest_curvature * leg.link.diameter / 2 : rod.largest_strain;
-    analysis.largest_strain = std::max(analysis.largest_strain, strain);
-  });
-  analysis.energy = system.energy();
-  analysis.potential = system.potential();
   analysis.smallest_pivot = factors.smallest_pivot();
   return analysis;
 }
@@ -238,6 +250,11 @@ RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || !work.rods->is_solved) return {};
   work.rods->stop = work.stop;
   return analysis_of(robot, *work.rods);
+}
+
+RodAnalysis read_rods(const Robot& robot, Workspace& work) {
+  if (!has_rods(robot) || !check_workspace(robot, work).ok() || !work.rods->is_solved) return {};
+  return reading_of(robot, *work.rods);
 }
 
 std::string_view to_string(LoadEnd end) noexcept {
@@ -319,11 +336,12 @@ double by_energy(const FoundEquilibrium& one) {
 FoundEquilibrium found_equilibrium(const Report& report, RodWork& rods, Workspace& work) {
   const RodGroup& system = *rods.system;
   const Equilibrium answer = answer_of(report, system, work, false);
+  const std::vector<RodResult> held = system.readings();
   return {.pose = answer.pose,
           .inputs = {answer.inputs.begin(), answer.inputs.end()},
-          .rods = system.readings(),
+          .rods = held,
           .residual = report.residual,
-          .potential = system.potential(),
+          .potential = system.potential(energy_of(held)),
           .unstable_directions = count_unstable_rods(rods).unstable};
 }
 

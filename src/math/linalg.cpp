@@ -188,6 +188,36 @@ void symmetric_eigenvalues(const MatrixView& a, std::span<double> values, std::s
   }
 }
 
+namespace {
+
+/// Whether Cholesky's elimination of a symmetric matrix leaves every pivot well above rounding: then all its
+/// eigenvalues are positive, however its rows are scaled.
+bool is_clearly_definite(Small a) {
+  constexpr double clear = 1e-10;
+  const auto diagonal = a.diagonal().eval();
+  for (Eigen::Index k = 0; k < a.rows(); ++k) {
+    const double pivot = a(k, k);
+    if (!(pivot > clear * diagonal[k])) return false;
+    for (Eigen::Index j = k + 1; j < a.rows(); ++j) {
+      const double share = a(j, k) / pivot;
+      for (Eigen::Index i = j; i < a.rows(); ++i) a(i, j) -= share * a(i, k);
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+int count_negative_eigenvalues(const MatrixView& a) {
+  const bool square = fits(a) && a.rows() == a.cols();
+  SINEW_EXPECTS(square);
+  if (!square || !a.allFinite()) return 0;
+  const Small symmetric = 0.5 * (a + a.transpose());
+  if (is_clearly_definite(symmetric)) return 0;
+  const Eigen::SelfAdjointEigenSolver<Small> found(symmetric, Eigen::EigenvaluesOnly);
+  return static_cast<int>((found.eigenvalues().array() < 0).count());
+}
+
 int count_left_of_zero(const MatrixView& a) {
   const bool square = fits(a) && a.rows() == a.cols();
   SINEW_EXPECTS(square);

@@ -54,6 +54,10 @@ SINEW_API int least_norm(const MatrixView& a, std::span<const double> b, std::sp
 SINEW_API void symmetric_eigenvalues(const MatrixView& a, std::span<double> values,
                                      std::span<double> vectors = {});
 
+/// How many eigenvalues of the symmetric part are negative. Of a matrix that is clearly positive definite, as
+/// most stiffnesses are, it is told by its pivots, in a tenth of the time.
+SINEW_API int count_negative_eigenvalues(const MatrixView& a);
+
 /// How many eigenvalues of a square matrix have a real part below 0; none where an entry is not finite.
 SINEW_API int count_left_of_zero(const MatrixView& a);
 

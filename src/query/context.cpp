@@ -37,9 +37,10 @@ AskedPose read_asked_pose(Context& context) {
   if (pose) asked.pose = read_pose(context, std::move(*pose));
   auto independent = context.query.optional("independent");
   if (!independent) return asked;
-  const IndependentPose free{independent->required("z", "height of the platform").quantity(Dimension::length),
-                             independent->required("e1", "a number").number(Range::between(-1, 1)),
-                             independent->required("e2", "a number").number(Range::between(-1, 1))};
+  const IndependentPose free{
+      independent->required("z", "height of the platform").quantity(Dimension::length, PoseRange::coordinate),
+      independent->required("e1", "a number").number(PoseRange::component),
+      independent->required("e2", "a number").number(PoseRange::component)};
   OperationMode mode = OperationMode::tilt;
   if (const auto word = independent->optional("mode"))
     mode = word->choice_of<OperationMode>(
@@ -210,9 +211,13 @@ Value legs_value(const Robot& robot, const AnyPose& pose, std::span<const double
   for (const LegState& leg : leg_states(robot, pose, coordinates, work)) {
     Value object = Value::map();
     if (std::isnan(leg.curvature)) {
-      object = {{"slide", leg.slide}, {"carriage", Value(leg.carriage)}, {"hinge_angle", leg.hinge_angle}};
+      object["slide"] = leg.slide;
+      object["carriage"] = Value(leg.carriage);
+      object["hinge_angle"] = leg.hinge_angle;
     } else {
-      object = {{"curvature", leg.curvature}, {"chord", leg.chord}, {"tendon_lengths", leg.tendon_lengths}};
+      object["curvature"] = leg.curvature;
+      object["chord"] = leg.chord;
+      object["tendon_lengths"] = leg.tendon_lengths;
       if (is_planar)
         object["base_tangent"] = wrap_angle(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
       else

@@ -212,7 +212,6 @@ struct TreeSession::State {
 struct Session::State {
   TreeSession session;
   std::optional<AnyPose> last = {};
-  std::string text = {};  ///< of the answer last written: its memory serves the next
 };
 
 namespace {
@@ -425,13 +424,18 @@ Expected<Session> Session::open(const std::string& path) {
   return document ? open(std::move(*document)) : tl::unexpected(document.error());
 }
 
-std::string Session::answer(std::string_view text) {
-  const auto document = parse_json(text, "query");
+void Session::answer(std::string_view query, std::string& text) {
+  const auto document = parse_json(query, "query");
   const Value answer = document ? state_->session.answer(*document, &state_->last, Continues::where_asked)
                                 : error_answer({}, document.error());
-  state_->text.clear();
-  answer.append_json(state_->text);
-  return state_->text;
+  text.clear();
+  answer.append_json(text);
+}
+
+std::string Session::answer(std::string_view query) {
+  std::string text;
+  answer(query, text);
+  return text;
 }
 
 Document Session::answer(const Document& query) {

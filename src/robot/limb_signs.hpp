@@ -26,10 +26,7 @@ LimbSigns signs_of(const LimbGroup<Space>& group, OwnOf&& own_of) {
     signs.own += in_plane + aside;
   }
   signs.is_odd = group.factors().has_negative_determinant() != (signs.own % 2 == 1);
-  std::array<double, static_cast<std::size_t>(Space::dof)> values;
-  symmetric_eigenvalues(group.stiffness(), values);
-  signs.unstable =
-      signs.own + static_cast<int>(std::ranges::count_if(values, [](double x) { return x < 0; }));
+  signs.unstable = signs.own + count_negative_eigenvalues(group.stiffness());
   return signs;
 }
 template <class Space>

@@ -19,10 +19,10 @@ double RodGroup::energy() const {
   return energy;
 }
 
-double RodGroup::potential() const {
+double RodGroup::potential(double energy) const {
   const Wrench load = wrench();
   if (load.tail<3>() != Vec3<double>::Zero()) return std::numeric_limits<double>::quiet_NaN();
-  return energy() + weight_energy() - dot(Vec3<double>(load.head<3>()), platform_.p);
+  return energy + weight_energy() - dot(Vec3<double>(load.head<3>()), platform_.p);
 }
 
 bool RodGroup::correct_rods(int& iterations, double& residual, double tolerance) {

@@ -62,8 +62,9 @@ class RodGroup : public LimbGroup<Spatial> {
   virtual RodResult rod(int index) const = 0;
   std::vector<RodResult> readings() const;  ///< allocates
   double energy() const final;
-  /// With that of weight and load; NaN under a moment, which keeps its axes and so has no potential.
-  double potential() const;
+  /// With that of weight and load beside the rods' own; NaN under a moment, which keeps its axes and so has
+  /// no potential.
+  double potential(double energy) const;
   /// Polyline, `samples` ≥ 2 points in base axes [m]. Allocates.
   virtual std::vector<Vec3<double>> centreline(int index, int samples) const = 0;
   /// Where a rod's coordinates begin among the robot's.

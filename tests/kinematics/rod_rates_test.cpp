@@ -169,6 +169,12 @@ TEST(RodStability, IsCountedOnceAnAnswer) {
   EXPECT_EQ(system.asked, 12);
   EXPECT_EQ(counted.unstable_rods, anew.unstable_rods);
   EXPECT_EQ(counted.unstable_directions, anew.unstable_directions);
+  const RodAnalysis read = read_rods(robot, work);
+  EXPECT_EQ(system.asked, 12);
+  EXPECT_EQ(read.energy, anew.energy);
+  EXPECT_EQ(read.largest_strain, anew.largest_strain);
+  EXPECT_EQ(read.rods.size(), anew.rods.size());
+  EXPECT_TRUE(read.feed.empty());
 }
 
 }  // namespace rod_rates_test

@@ -162,6 +162,30 @@ TEST(Linalg, DeterminantOfAProduct) {
   EXPECT_EQ(determinant(view(Dense::Identity(24, 24))), 1.0);
 }
 
+/// By the pivots where they are clear, by eigenvalues near a singular matrix: the same count however the rows
+/// are scaled, as forces and moments are.
+RC_GTEST_PROP(Linalg, NegativeEigenvaluesAreCounted, (std::uint32_t seed)) {
+  const int n = 1 + static_cast<int>(seed % 8);
+  const Dense turn = random_matrix(seed, n, n).householderQr().householderQ();
+  Eigen::VectorXd values = random_matrix(seed + 1, n, 1);
+  if (seed % 3 == 0) values = values.cwiseAbs();
+  if (seed % 5 == 0) values[0] = seed % 2 == 0 ? 1e-9 : -1e-9;
+  const Eigen::VectorXd scale = random_matrix(seed + 2, n, 1).array().exp();
+  const Dense skew = random_matrix(seed + 3, n, n);
+  const Dense matrix =
+      scale.asDiagonal() * turn * values.asDiagonal() * turn.transpose() * scale.asDiagonal() +
+      (skew - skew.transpose());  // what is not symmetric does not count
+  RC_ASSERT(count_negative_eigenvalues(view(matrix)) == (values.array() < 0).count());
+}
+
+TEST(Linalg, NegativeEigenvaluesOfSingularAndOfNoMatrix) {
+  EXPECT_EQ(count_negative_eigenvalues(view(Dense::Zero(6, 6))), 0);
+  EXPECT_EQ(count_negative_eigenvalues(view(Dense::Ones(6, 6) - 7 * Dense::Identity(6, 6))), 6);
+  Dense broken = Dense::Identity(6, 6);
+  broken(2, 3) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(count_negative_eigenvalues(view(broken)), 0);
+}
+
 TEST(Linalg, LargerThanTheLargestSizeIsRefusedNotWrittenPastTheEnd) {
   if (test::is_asserted) GTEST_SKIP() << "the library ends there";
   const Dense a = Dense::Identity(25, 25);

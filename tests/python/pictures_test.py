@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import urllib.request
 import xml.etree.ElementTree
 
@@ -156,6 +157,16 @@ class Viewer(unittest.TestCase):
             self.assertIsNotNone(view._process.poll())
         with self.assertRaisesRegex(sinew.InputError, "set"):
             sinew.load("3-rfr").set({"legs[0].link.length": 0.18}).view()
+
+    def test_in_a_notebook_it_may_be_framed(self):
+        try:
+            _view.command()
+        except sinew.InputError as error:
+            self.skipTest(str(error))
+        for is_notebook, ancestors in ((False, "'none'"), (True, "http://127.0.0.1:* http://localhost:*")):
+            with unittest.mock.patch.object(_view, "_in_notebook", lambda is_notebook=is_notebook: is_notebook):
+                with sinew.load("3-rfr").view(open_browser=False) as view, urllib.request.urlopen(view.url) as reply:
+                    self.assertIn(f"frame-ancestors {ancestors};", reply.headers["Content-Security-Policy"])
 
     def test_without_the_command_says_so(self):
         code = "import sinew._view\ntry: sinew._view.command()\nexcept sinew.InputError as e: print(e.code)\n"

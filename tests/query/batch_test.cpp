@@ -693,5 +693,47 @@ TEST(Batch, FollowsAnArmWhoseTendonsRubFromRowToRow) {
   EXPECT_NEAR(one[2], path["tip"]["position"][0].get<double>(), 1e-10);
 }
 
+/// Rows are refused where the question by itself is, at either side of the ranges of all numbers that vary.
+TEST(Batch, RowsAreRefusedWhereQuestionsAre) {
+  struct Case {
+    std::string robot;
+    std::string_view question;
+    std::vector<double> usual;
+    std::size_t varied;
+    std::vector<double> values;
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::string_view
+      planar = R"({"query": "inverse", "pose": {"x": "$a", "y": "$b", "phi": "$c"}})",
+      spatial =
+          R"({"query": "inverse", "pose": {"position": [0, 0, "$a"], "quaternion": ["$b", 0, 0, "$c"]}})",
+      free = R"({"query": "inverse", "independent": {"z": "$a", "e1": "$b", "e2": "$c"}})",
+      bends = R"({"query": "forward", "configuration": [["$a", "$b"], ["$c", 0]]})";
+  const Case cases[] = {{"3-rfr", planar, {0, -0.01, 0}, 0, {0.9e9, 1.1e9, none}},
+                        {"3-rfr", planar, {0, -0.01, 0}, 2, {0.9e6, 1.1e6, -1.1e6, none}},
+                        {"6-ufs", spatial, {0.2, 1, 0}, 0, {0.9e9, -1.1e9, none}},
+                        {"6-ufs", spatial, {0.2, 1, 0}, 1, {1e-7, 2e-6, 0.9e9, 1.1e9}},
+                        {"3prs", free, {0.3, 0, 0}, 0, {0.9e9, 1.1e9, none}},
+                        {"3prs", free, {0.3, 0, 0}, 1, {0.99, 1.01, -1.01, none}},
+                        {"four-tendon-tpcj", bends, {0.1, 0.1, 0.1}, 1, {0.9e6, 1.1e6, -1.1e6, none}}};
+  for (const Case& one : cases) {
+    const auto batch = prepared(one.robot, one.question);
+    ASSERT_TRUE(batch) << one.robot << ": " << to_string(batch.error());
+    for (const double value : one.values) {
+      std::vector<double> row = one.usual;
+      row[one.varied] = value;
+      std::string text(one.question);
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const std::string name = std::string("\"$") + static_cast<char>('a' + k) + '"';
+        text.replace(text.find(name), name.size(), std::isfinite(row[k]) ? Json(row[k]).dump() : "null");
+      }
+      const bool is_error = Json::parse(Session::open(one.robot).value().answer(text)).contains("error");
+      const auto status = run(*batch, row).statuses[0];
+      EXPECT_EQ(status == static_cast<std::uint8_t>(Status::bad_input), is_error)
+          << one.robot << ' ' << text << ' ' << int{status};
+    }
+  }
+}
+
 }  // namespace batch_test
 }  // namespace sinew

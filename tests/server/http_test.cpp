@@ -113,6 +113,21 @@ TEST(Http, PageAndPolicy) {
   EXPECT_NE(page->get_header_value("Permissions-Policy").find("camera=(self)"), std::string::npos);
 }
 
+TEST(Http, FramesAreOfPagesOfThisMachineWhereTheyAreAskedFor) {
+  const auto policy = [](Options options) {
+    return Desk(std::move(options)).client.Get("/")->get_header_value("Content-Security-Policy");
+  };
+  EXPECT_NE(policy({}).find("; frame-ancestors 'none';"), std::string::npos);
+  Options framed;
+  framed.is_framed = true;
+  EXPECT_NE(policy(framed).find("; frame-ancestors http://127.0.0.1:* http://localhost:*;"),
+            std::string::npos);
+  framed.address = "0.0.0.0";
+  const auto open = Server::open(framed);
+  ASSERT_FALSE(open);
+  EXPECT_EQ(open.error()[0].code, "not_available");
+}
+
 TEST(Http, OtherAddressesNeedTheToken) {
   Options options;
   options.address = "0.0.0.0";

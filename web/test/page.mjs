@@ -10,12 +10,13 @@ import * as honest from './honest.mjs';
 import * as jog from './jog.mjs';
 import * as log from './log.mjs';
 import * as looks from './looks.mjs';
+import * as notebook from './notebook.mjs';
 import * as operate from './operate.mjs';
 import * as plans from './plans.mjs';
 import * as robots from './robots.mjs';
 import * as speed from './speed.mjs';
 
-const modules = {robots, design, arms, drive, errors, honest, jog, looks, operate, log, plans, speed, demo}, wanted = process.argv.slice(5);
+const modules = {robots, design, arms, drive, errors, honest, jog, looks, operate, log, plans, speed, notebook, demo}, wanted = process.argv.slice(5);
 const cases = Object.entries(modules).flatMap(([module, all]) => Object.entries(all).map(([name, run]) => ({module, name, run})));
 for (const one of wanted) assert.ok(cases.some(({module, name}) => one === module || one === name), `${one} is no module and no case`);
 

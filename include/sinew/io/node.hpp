@@ -119,7 +119,7 @@ class NodeBuilder {
   /// A key of the innermost map, whose value comes next. Codes: `duplicate_key`.
   SINEW_API bool key(std::string_view key, int line = 0, int column = 0);
   /// A value that is neither list nor map.
-  SINEW_API bool scalar(Node node);
+  SINEW_API bool scalar(Node&& node);
   /// Notes an error at a place; always false.
   SINEW_API bool stop(std::string_view code, int line, int column, std::string_view message);
 

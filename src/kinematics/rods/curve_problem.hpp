@@ -86,7 +86,7 @@ class RodProblem : public LoadProblem<Spatial> {
     for (int k = 0; k < system_.feeds(); ++k) point.inputs[at(system_.input_of(k))] = system_.held(k);
     point.unstable_directions = unstable;
     point.residual = residual;
-    point.potential = system_.potential();
+    point.potential = system_.potential(system_.energy());
     return point;
   }
   bool is_same(const CurvePoint& one, const CurvePoint& other) const {

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/same_name.hpp"
@@ -48,7 +49,8 @@ int count_digits(std::uint64_t value) {
   return about + (value >= powers_of_ten[static_cast<std::size_t>(about)] ? 1 : 0);
 }
 
-constexpr std::size_t room_of_number = 48;  ///< half of it for what is copied in one piece, past the end
+constexpr std::size_t room_of_number =
+    48;  ///< of which a third is for what is copied in one piece, past the end
 
 /// The shortest digits that read back to the same double, with a point: a reader tells it from a whole
 /// number. Exponents are written from 1e16 on and below 1e-4. As fmt writes {}, in a third of the time:
@@ -64,7 +66,8 @@ char* write_number(char* to, double value) {
     put_text("null");
     return to;
   }
-  if (std::signbit(value)) *to++ = '-';
+  *to = '-';
+  to += std::signbit(value);
   if (value == 0) {
     put_text("0.0");
     return to;
@@ -80,40 +83,34 @@ char* write_number(char* to, double value) {
   const char first = static_cast<char>('0' + leading);
   const std::uint64_t high = eight_digits(upper - 100000000 * leading),
                       low = eight_digits(static_cast<std::uint32_t>(all % powers_of_ten[8]));
-  const auto put_pieces = [&](char* at) {
+  const auto put_rest = [&](char* at) {
     std::memcpy(at, &high, sizeof high);
     std::memcpy(at + sizeof high, &low, sizeof low);
   };
-  const auto put_rest = [&](int used) {
-    put_pieces(to);
-    to += used;
-  };
   if (power < -4 || power >= 16) {
-    *to++ = first;
-    if (count > 1) *to++ = '.';
-    put_rest(count - 1);
+    to[0] = first, to[1] = '.';
+    put_rest(to + 2);
+    to += count > 1 ? count + 1 : 1;
     *to++ = 'e', *to++ = power < 0 ? '-' : '+';
     if (std::abs(power) < 10) *to++ = '0';
     const fmt::format_int exponent(std::abs(power));
     put_text({exponent.data(), exponent.size()});
-  } else if (power < 0) {
-    std::memcpy(to, "0.000", 5);
-    to += 1 - power;
-    *to++ = first;
-    put_rest(count - 1);
-  } else if (power == 0) {
-    *to++ = first, *to++ = '.';
-    put_rest(std::max(count - 1, 1));
-  } else {
-    *to++ = first;
-    put_rest(power);
-    *to++ = '.';
-    std::array<char, 2 * most_digits> after{};
-    put_pieces(after.data());
-    std::memcpy(to, &after[static_cast<std::size_t>(power)], most_digits);
-    to += std::max(count - 1 - power, 1);
+    return to;
   }
-  return to;
+  if (power <=
+      0) {  // with as many zeros in front: without a branch, since signs of powers are anybody's guess
+    const int zeros = -power;
+    std::memcpy(to, "0.000000", 8);
+    to[zeros + (zeros > 0 ? 1 : 0)] = first;
+    to[1] = '.';
+    put_rest(to + zeros + 2);
+    return to + std::max(zeros + count + 1, 3);
+  }
+  to[0] = first;
+  put_rest(to + 1);
+  std::memmove(to + power + 2, to + power + 1, most_digits - 1);  // what comes after the point
+  to[power + 1] = '.';
+  return to + std::max(count + 1, power + 3);
 }
 
 /// JSON at the end of a text. Room is made for many characters at once, and what there is too much of it cut
@@ -234,61 +231,116 @@ void Value::Block::insert(std::size_t at, double number) {
 }
 
 // Not inline: they need what is in a map to be complete, which needs a value to be.
-Value::Value() = default;
-Value::Value(const Value&) = default;
-Value::Value(Value&&) noexcept = default;
-Value& Value::operator=(const Value&) = default;
-Value& Value::operator=(Value&&) noexcept = default;
-Value::~Value() = default;
-Value::Value(bool value) : is_(value) {}
-Value::Value(double value) : is_(value) {}
-Value::Value(std::string value) : is_(std::move(value)) {}
-Value::Value(std::string_view value) : is_(std::string(value)) {}
-Value::Value(const char* value) : is_(std::string(value)) {}
-Value::Value(Written value) : is_(std::move(value)) {}
-Value::Value(List value) : is_(std::move(value)) {}
-Value::Value(Block value) : is_(std::move(value)) {}
-Value::Value(std::span<const int> whole_numbers) : is_(List(whole_numbers.begin(), whole_numbers.end())) {}
-Value::Value(std::initializer_list<double> numbers) : is_(Block({numbers.begin(), numbers.size()})) {}
-Value::Value(std::span<const double> numbers, std::size_t columns) : is_(Block(numbers, columns)) {}
+Value::Value(const Value& other) : kind_(other.kind_) {
+  switch (kind_) {
+    case Kind::text:
+      std::construct_at(&is_.text, other.is_.text);
+      break;
+    case Kind::written:
+      std::construct_at(&is_.written, other.is_.written);
+      break;
+    case Kind::block:
+      std::construct_at(&is_.block, other.is_.block);
+      break;
+    case Kind::list:
+      std::construct_at(&is_.list, other.is_.list);
+      break;
+    case Kind::map:
+      std::construct_at(&is_.map, other.is_.map);
+      break;
+    default:
+      is_.plain = other.is_.plain;
+  }
+}
 
-Value Value::whole(std::int64_t value) {
-  Value made;
-  made.is_ = value;
-  return made;
+void Value::take_content(Value& other) noexcept {
+  switch (kind_) {
+    case Kind::text:
+      std::construct_at(&is_.text, std::move(other.is_.text));
+      break;
+    case Kind::written:
+      std::construct_at(&is_.written, std::move(other.is_.written));
+      break;
+    case Kind::block:
+      std::construct_at(&is_.block, std::move(other.is_.block));
+      break;
+    case Kind::list:
+      std::construct_at(&is_.list, std::move(other.is_.list));
+      break;
+    case Kind::map:
+      std::construct_at(&is_.map, std::move(other.is_.map));
+      break;
+    default:
+      break;
+  }
+}
+
+void Value::end_content() noexcept {
+  switch (kind_) {
+    case Kind::text:
+      return std::destroy_at(&is_.text);
+    case Kind::written:
+      return std::destroy_at(&is_.written);
+    case Kind::block:
+      return std::destroy_at(&is_.block);
+    case Kind::list:
+      return std::destroy_at(&is_.list);
+    case Kind::map:
+      return std::destroy_at(&is_.map);
+    default:
+      return;
+  }
+}
+
+Value::Map& Value::begin_map(std::size_t room) {
+  kind_ = Kind::map;
+  std::construct_at(&is_.map);
+  is_.map.reserve(room);
+  return is_.map;
+}
+
+Value::Value(std::string value) : kind_(Kind::text) { std::construct_at(&is_.text, std::move(value)); }
+Value::Value(std::string_view value) : kind_(Kind::text) { std::construct_at(&is_.text, value); }
+Value::Value(const char* value) : Value(std::string_view(value)) {}
+Value::Value(Written value) : kind_(Kind::written) { std::construct_at(&is_.written, std::move(value)); }
+Value::Value(List value) : kind_(Kind::list) { std::construct_at(&is_.list, std::move(value)); }
+Value::Value(Block value) : kind_(Kind::block) { std::construct_at(&is_.block, std::move(value)); }
+Value::Value(std::span<const int> whole_numbers) : Value(List(whole_numbers.begin(), whole_numbers.end())) {}
+Value::Value(std::initializer_list<double> numbers)
+    : Value(std::span<const double>(numbers.begin(), numbers.size()), 0) {}
+Value::Value(std::span<const double> numbers, std::size_t columns) : kind_(Kind::block) {
+  std::construct_at(&is_.block, numbers, columns);
 }
 
 Value Value::list() { return {List()}; }
 Value Value::list(std::initializer_list<Value> items) { return {List(items)}; }
 
-bool Value::is_null() const { return std::holds_alternative<std::monostate>(is_); }
-const bool* Value::boolean() const { return std::get_if<bool>(&is_); }
-const std::string* Value::text() const { return std::get_if<std::string>(&is_); }
-const Value::List* Value::items() const { return std::get_if<List>(&is_); }
-const Value::Block* Value::block() const { return std::get_if<Block>(&is_); }
-const Value::Map* Value::members() const { return std::get_if<Map>(&is_); }
-Value& Value::back() { return std::get<List>(is_).back(); }
-Value& Value::operator[](std::size_t i) { return std::get<List>(is_)[i]; }
+const bool* Value::boolean() const { return kind_ == Kind::boolean ? &is_.plain.boolean : nullptr; }
+const std::string* Value::text() const { return kind_ == Kind::text ? &is_.text : nullptr; }
+const Value::List* Value::items() const { return kind_ == Kind::list ? &is_.list : nullptr; }
+const Value::Block* Value::block() const { return kind_ == Kind::block ? &is_.block : nullptr; }
+const Value::Map* Value::members() const { return kind_ == Kind::map ? &is_.map : nullptr; }
+Value& Value::back() { return own(is_.list, Kind::list).back(); }
+Value& Value::operator[](std::size_t i) { return own(is_.list, Kind::list)[i]; }
 
 Value Value::map() {
   Value value;
-  value.is_.emplace<Map>().reserve(usual_members);
+  value.begin_map(usual_members);
   return value;
 }
 
 Value::Value(const MatrixView& matrix)
-    : is_(Block({matrix.data(), static_cast<std::size_t>(matrix.size())},
-                static_cast<std::size_t>(matrix.cols()))) {}
+    : Value(std::span<const double>(matrix.data(), static_cast<std::size_t>(matrix.size())),
+            static_cast<std::size_t>(matrix.cols())) {}
 
 Value::Value(std::initializer_list<Entry> entries) {
-  Map& members = is_.emplace<Map>();
-  members.reserve(entries.size() + usual_additions);
-  for (const Entry& entry : entries) members.push_back({entry.key.name(), std::move(entry.value)});
+  Map& members = begin_map(entries.size() + usual_additions);
+  for (const Entry& entry : entries) members.emplace_back(entry.key.name(), std::move(entry.value));
 }
 
 std::optional<double> Value::number() const {
-  if (const auto* number = std::get_if<double>(&is_)) return *number;
-  if (const auto* whole = std::get_if<std::int64_t>(&is_)) return static_cast<double>(*whole);
+  if (kind_ == Kind::number) return is_.plain.number;
+  if (kind_ == Kind::whole) return static_cast<double>(is_.plain.whole);
   return {};
 }
 
@@ -302,17 +354,14 @@ std::size_t Value::size() const {
 Value& Value::operator[](Key key) {
   if (is_null()) *this = map();
   if (Value* found = find(key.name())) return *found;
-  Map& members = std::get<Map>(is_);
-  members.push_back({key.name(), {}});
-  return members.back().value;
+  return own(is_.map, Kind::map).emplace_back(key.name()).value;
 }
 
 Value* Value::find(std::string_view name) {
-  Map* members = std::get_if<Map>(&is_);
-  if (!members) return nullptr;
+  if (kind_ != Kind::map) return nullptr;
   const auto found =
-      std::ranges::find_if(*members, [&](const Member& member) { return is_same_name(member.name, name); });
-  return found == members->end() ? nullptr : &found->value;
+      std::ranges::find_if(is_.map, [&](const Member& member) { return is_same_name(member.name, name); });
+  return found == is_.map.end() ? nullptr : &found->value;
 }
 
 std::string_view Value::text_at(std::string_view name) const {
@@ -321,12 +370,12 @@ std::string_view Value::text_at(std::string_view name) const {
 }
 
 void Value::erase(std::string_view name) {
-  std::erase_if(std::get<Map>(is_), [&](const Member& member) { return member.name == name; });
+  std::erase_if(own(is_.map, Kind::map), [&](const Member& member) { return member.name == name; });
 }
 
 void Value::merge(Value&& other) {
-  Map& members = std::get<Map>(is_);
-  for (Member& member : std::get<Map>(other.is_)) {
+  Map& members = own(is_.map, Kind::map);
+  for (Member& member : other.own(other.is_.map, Kind::map)) {
     if (Value* found = find(member.name))
       *found = std::move(member.value);
     else
@@ -336,14 +385,13 @@ void Value::merge(Value&& other) {
 
 void Value::push_back(Value value) {
   if (is_null()) *this = list();
-  if (Block* numbers = std::get_if<Block>(&is_))
-    return numbers->insert(numbers->numbers().size(), value.number().value());
-  List& list = std::get<List>(is_);
+  if (kind_ == Kind::block) return is_.block.insert(is_.block.numbers().size(), value.number().value());
+  List& list = own(is_.list, Kind::list);
   if (list.empty()) list.reserve(usual_items);
   list.push_back(std::move(value));
 }
 
-void Value::push_front(double number) { std::get<Block>(is_).insert(0, number); }
+void Value::push_front(double number) { own(is_.block, Kind::block).insert(0, number); }
 
 std::string Value::json() const {
   std::string text;
@@ -359,7 +407,7 @@ struct WriteJson {
 
   void write(const Value& value) const { value.visit(*this); }
 
-  void operator()(std::monostate) const { json.put("null"); }
+  void operator()(std::nullptr_t) const { json.put("null"); }
   void operator()(bool value) const { json.put(value ? "true" : "false"); }
   void operator()(std::int64_t value) const { json.whole(value); }
   void operator()(double value) const { json.number(value); }
@@ -416,7 +464,7 @@ Node numbers_node(std::span<const double> numbers) {
 
 Node Value::node() const {
   struct Make {
-    Node operator()(std::monostate) const { return {}; }
+    Node operator()(std::nullptr_t) const { return {}; }
     Node operator()(bool value) const { return make_node(value); }
     Node operator()(std::int64_t value) const {
       Node node = make_node(static_cast<double>(value));
@@ -448,7 +496,7 @@ Node Value::node() const {
       return node;
     }
   };
-  return std::visit(Make{}, is_);
+  return visit(Make{});
 }
 
 }  // namespace sinew::inline v1

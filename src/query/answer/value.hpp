@@ -8,10 +8,10 @@
 #include <optional>
 #include <ranges>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "math/linalg.hpp"
@@ -79,12 +79,12 @@ class SINEW_API Value {
 
   /// @name Of what it is made from
   /// @{
-  Value();
+  Value() = default;
   static Value map();
   static Value list();
   static Value list(std::initializer_list<Value> items);
-  Value(bool value);
-  Value(double value);
+  Value(bool value) : kind_(Kind::boolean) { is_.plain.boolean = value; }
+  Value(double value) : kind_(Kind::number) { is_.plain.number = value; }
   template <class Whole>
   requires std::is_integral_v<Whole> &&(!std::is_same_v<Whole, bool>)Value(Whole value)
       : Value(whole(static_cast<std::int64_t>(value))) {}
@@ -106,16 +106,21 @@ class SINEW_API Value {
       : Value(std::span<const double>(vector.data(), static_cast<std::size_t>(size)), 0) {}
   Value(std::initializer_list<Entry> members);
 
-  Value(const Value&);
-  Value(Value&&) noexcept;
-  Value& operator=(const Value&);
-  Value& operator=(Value&&) noexcept;
-  ~Value();
+  Value(const Value& other);
+  Value(Value&& other) noexcept { take(other); }
+  Value& operator=(const Value& other) { return *this = Value(other); }
+  Value& operator=(Value&& other) noexcept {
+    if (this == &other) return *this;
+    clear();
+    take(other);
+    return *this;
+  }
+  ~Value() { clear(); }
   /// @}
 
   /// @name What it is
   /// @{
-  bool is_null() const;
+  bool is_null() const { return kind_ == Kind::null; }
   const bool* boolean() const;
   const std::string* text() const;
   const List* items() const;
@@ -154,20 +159,92 @@ class SINEW_API Value {
   Node node() const;
   /// Calls `use` with what it is.
   template <class Use>
-  decltype(auto) visit(Use&& use) const {
-    return std::visit(use, is_);
-  }
+  decltype(auto) visit(Use&& use) const;
 
  private:
-  static Value whole(std::int64_t value);
+  /// What lies in the value itself comes first: it is copied, and there is nothing to give back. Of a tree of
+  /// numbers these are most, and a move or an end of each is then seen without a call.
+  enum class Kind : unsigned char { null, boolean, whole, number, text, written, block, list, map };
+  union Plain {
+    bool boolean;
+    std::int64_t whole = 0;
+    double number;
+  };
+  union Content {
+    Content() : plain() {}
+    ~Content() {}
+    Plain plain;
+    std::string text;
+    Written written;
+    Block block;
+    List list;
+    Map map;
+  };
 
-  std::variant<std::monostate, bool, std::int64_t, double, std::string, Written, Block, List, Map> is_;
+  static Value whole(std::int64_t value) {
+    Value made;
+    made.kind_ = Kind::whole;
+    made.is_.plain.whole = value;
+    return made;
+  }
+  bool is_plain() const { return kind_ < Kind::text; }
+  /// Of a null.
+  void take(Value& other) noexcept {
+    kind_ = other.kind_;
+    if (is_plain())
+      is_.plain = other.is_.plain;
+    else
+      take_content(other);
+  }
+  void clear() noexcept {
+    if (!is_plain()) end_content();
+    kind_ = Kind::null;
+  }
+  void take_content(Value& other) noexcept;
+  void end_content() noexcept;
+  Map& begin_map(std::size_t room);
+  /// The content, which must be of that kind.
+  template <class Of>
+  Of& own(Of& content, Kind kind) const {
+    if (kind_ != kind) throw std::logic_error("an answer is not of this kind");
+    return content;
+  }
+
+  Kind kind_ = Kind::null;
+  Content is_;
 };
 
 struct Value::Member {
   std::string_view name;
-  Value value;
+  Value value = {};
+  explicit Member(std::string_view key) : name(key) {}
+  Member(std::string_view key, Value&& of) : name(key), value(std::move(of)) {}
 };
+
+template <class Use>
+decltype(auto) Value::visit(Use&& use) const {
+  switch (kind_) {
+    case Kind::null:
+      break;
+    case Kind::boolean:
+      return use(is_.plain.boolean);
+    case Kind::whole:
+      return use(is_.plain.whole);
+    case Kind::number:
+      return use(is_.plain.number);
+    case Kind::text:
+      return use(is_.text);
+    case Kind::written:
+      return use(is_.written);
+    case Kind::block:
+      return use(is_.block);
+    case Kind::list:
+      return use(is_.list);
+    case Kind::map:
+      return use(is_.map);
+  }
+  return use(nullptr);
+}
 
 /// What a map is written with: `{{"x", 1.0}, {"y", 2.0}}`.
 struct Value::Entry {

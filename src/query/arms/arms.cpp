@@ -57,11 +57,11 @@ std::vector<TendonCommand> read_arm_commands(const std::vector<std::size_t>& cou
   std::vector<TendonCommand> commands(std::accumulate(counts.begin(), counts.end(), std::size_t{0}),
                                       {changes && !tensions ? TendonHeld::change : TendonHeld::tension, 0});
   if (tensions) {
-    const auto values = read_of_tendons(counts, *tensions, Dimension::force, {.low = 0, .high = 1e9});
+    const auto values = read_of_tendons(counts, *tensions, Dimension::force, range_of(TendonHeld::tension));
     for (std::size_t i = 0; i < commands.size(); ++i)
       if (values[i]) commands[i] = {TendonHeld::tension, *values[i]};
     if (changes) {
-      const auto others = read_of_tendons(counts, *changes, Dimension::length, Range::place());
+      const auto others = read_of_tendons(counts, *changes, Dimension::length, range_of(TendonHeld::change));
       for (std::size_t i = 0; i < commands.size(); ++i) {
         if (!others[i]) continue;
         if (values[i])
@@ -71,7 +71,7 @@ std::vector<TendonCommand> read_arm_commands(const std::vector<std::size_t>& cou
       }
     }
   } else if (changes) {
-    const auto values = read_of_tendons(counts, *changes, Dimension::length, Range::place());
+    const auto values = read_of_tendons(counts, *changes, Dimension::length, range_of(TendonHeld::change));
     for (std::size_t i = 0; i < commands.size(); ++i) commands[i].value = values[i].value_or(0);
   }
   return commands;

@@ -21,6 +21,10 @@ struct ArmContext : Question {
   }
 };
 
+/// What a tendon may be held at [N, m]: of questions, and of rows, which put other numbers in their place.
+constexpr Range range_of(TendonHeld held) {
+  return held == TendonHeld::tension ? Range::between(0, 1e9) : Range::place();
+}
 /// `tensions` and `changes` of a question, or of a point of a path: each tendon is held by one of them. What
 /// neither names is loose where changes are not given, else as long as at rest.
 std::vector<TendonCommand> read_arm_commands(const Arm& arm, Reader& place);

@@ -154,17 +154,16 @@ class ArmSampler {
 
   /// The numbers of a row; false where a query would not take them.
   bool take(const SampleBlock& block, std::size_t k, std::span<TendonCommand> commands, ArmLoad& load) const {
-    constexpr double most = 1e9;
-    for (std::size_t i = 0; i < commands.size(); ++i) {
-      const double value = asked_->tendons[i].at(block, k);
-      if (!(value >= (asked_->held[i] == TendonHeld::tension ? 0 : -most) && value <= most)) return false;
-      commands[i] = {asked_->held[i], value};
-    }
-    for (std::size_t i = 0; i < 6; ++i) {
-      load.wrench[i] = asked_->wrench[i].at(block, k);
-      if (!std::isfinite(load.wrench[i])) return false;
-    }
-    return true;
+    bool is_taken = true;
+    const auto number = [&](const RowNumber& entry) {
+      const double value = entry.at(block, k);
+      is_taken = is_taken && entry.is_taken(value);
+      return value;
+    };
+    for (std::size_t i = 0; i < commands.size(); ++i)
+      commands[i] = {asked_->held[i], number(asked_->tendons[i])};
+    for (std::size_t i = 0; i < 6; ++i) load.wrench[i] = number(asked_->wrench[i]);
+    return is_taken;
   }
 
   /// Where the row before it leads to nothing that holds, from the straight arm.
@@ -231,7 +230,8 @@ SamplerKind plan_arms(Context& of_robot, const RowPlaces& rows) {
     const auto section = static_cast<std::size_t>(context.robot.tendons[i].section());
     const std::string_view list = held == TendonHeld::tension ? "tensions" : "changes";
     asked.held.push_back(held);
-    asked.tendons.push_back(rows.number(joined(joined(list, section), next[section]++), value));
+    asked.tendons.push_back(
+        rows.number(joined(joined(list, section), next[section]++), value, range_of(held)));
   }
   asked.wrench = rows.numbers("wrench", read.load.wrench);
   for (const std::string& output : rows.outputs()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "io/read_pose.hpp"
 #include "query/batch/row_places.hpp"
 #include "query/kinematic/kinematics.hpp"
 #include "sinew/analysis/velocity.hpp"
@@ -35,7 +36,7 @@ struct Output {
 
 struct AskedPoses {
   Robot robot;
-  bool is_inverse = false, is_spatial = false;
+  bool is_inverse = false;
   std::optional<OperationMode> independent = {};
   std::vector<RowNumber> pose = {};  ///< x, y, φ; position and quaternion; z, e₁, e₂
   std::vector<int> bending = {}, elbow = {};
@@ -81,8 +82,8 @@ std::optional<Output> output_of(std::string_view path, const AskedPoses& asked, 
 
 /// A quaternion is scaled when it is read: where columns go into it, its other numbers are as written.
 bool put_spatial(const SpatialPose& pose, const RowPlaces& rows, AskedPoses& asked) {
-  asked.pose = rows.numbers("pose.position", std::span(pose.position.data(), 3));
-  std::vector<RowNumber> quaternion = rows.numbers("pose.quaternion", pose.quaternion);
+  asked.pose = rows.numbers("pose.position", std::span(pose.position.data(), 3), PoseRange::coordinate);
+  std::vector<RowNumber> quaternion = rows.numbers("pose.quaternion", pose.quaternion, PoseRange::coordinate);
   if (std::ranges::any_of(quaternion, [](const RowNumber& part) { return part.input >= 0; }))
     for (std::size_t k = 0; k < quaternion.size(); ++k) {
       const Node* written = at(rows.trial().root, joined("pose.quaternion", k));
@@ -95,19 +96,23 @@ bool put_spatial(const SpatialPose& pose, const RowPlaces& rows, AskedPoses& ask
 
 /// Whether the rows' numbers are those of the pose.
 bool put_pose(const AskedPose& at, const RowPlaces& rows, AskedPoses& asked) {
-  const auto put = [&](std::initializer_list<std::pair<std::string_view, double>> parts) {
-    for (const auto& [place, value] : parts) asked.pose.push_back(rows.number(place, value));
+  const auto put = [&](std::string_view place, double value, Range range) {
+    asked.pose.push_back(rows.number(place, value, range));
   };
   if (at.independent) {
     const auto& [free, mode] = *at.independent;
     asked.independent = mode;
-    put({{"independent.z", free.z}, {"independent.e1", free.e1}, {"independent.e2", free.e2}});
+    put("independent.z", free.z, PoseRange::coordinate);
+    put("independent.e1", free.e1, PoseRange::component);
+    put("independent.e2", free.e2, PoseRange::component);
     return rows.are_within({"independent"});
   }
   if (!at.pose) return false;
   if (const auto* spatial = std::get_if<SpatialPose>(&*at.pose)) return put_spatial(*spatial, rows, asked);
   const auto& planar = std::get<PlanarPose>(*at.pose);
-  put({{"pose.x", planar.x}, {"pose.y", planar.y}, {"pose.phi", planar.phi}});
+  put("pose.x", planar.x, PoseRange::coordinate);
+  put("pose.y", planar.y, PoseRange::coordinate);
+  put("pose.phi", planar.phi, PoseRange::angle);
   return rows.are_within({"pose"});
 }
 
@@ -122,35 +127,27 @@ class PoseSampler {
     for (const Output& output : asked_.outputs) choose(output, block.count, out);
     velocity_batch(robot_, {poses_, asked_.bending, asked_.elbow, asked_.independent}, out, work_);
     for (std::size_t k = 0; k < block.count; ++k)
-      block.statuses[k] = is_refused(k, block.count) ? refused : status(statuses_[k]);
+      block.statuses[k] = is_taken_[k] ? status(statuses_[k]) : refused;
     for (std::size_t o = 0; o < asked_.outputs.size(); ++o) put(o, block);
     *block.done += block.count;
   }
 
  private:
-  /// What a query would not take, whatever the robot; see read_pose.cpp and context.cpp.
-  bool is_refused(std::size_t k, std::size_t n) const {
-    const auto c = [&](std::size_t axis) { return poses_[axis * n + k]; };
-    const Range place = Range::place(), component = Range::between(-1, 1);
-    if (asked_.independent)
-      return !place.contains(c(0)) || !component.contains(c(1)) || !component.contains(c(2));
-    if (!asked_.is_spatial)
-      return !place.contains(c(0)) || !place.contains(c(1)) || !Range::turn().contains(c(2));
-    return !place.contains(c(0)) || !place.contains(c(1)) || !place.contains(c(2)) || !(squares_[k] >= 1e-12);
-  }
-
   std::vector<double>& column(Field field) { return columns_[static_cast<std::size_t>(field)]; }
 
   void place(const SampleBlock& block) {
     const std::size_t n = block.count;
     poses_.resize(asked_.pose.size() * n);
+    is_taken_.assign(n, 1);
     for (std::size_t c = 0; c < asked_.pose.size(); ++c)
-      for (std::size_t k = 0; k < n; ++k) poses_[c * n + k] = asked_.pose[c].at(block, k);
-    squares_.assign(n, 1);
+      for (std::size_t k = 0; k < n; ++k) {
+        poses_[c * n + k] = asked_.pose[c].at(block, k);
+        is_taken_[k] &= static_cast<std::uint8_t>(asked_.pose[c].is_taken(poses_[c * n + k]));
+      }
     for (std::size_t k = 0; asked_.pose.size() == 7 && k < n; ++k) {
       double square = 0;
       for (std::size_t c = 3; c < 7; ++c) square += poses_[c * n + k] * poses_[c * n + k];
-      squares_[k] = square;
+      is_taken_[k] &= static_cast<std::uint8_t>(square >= PoseRange::least_square);
       const double scale = 1 / std::sqrt(square);  // of zero: no finite pose, which the batch says
       for (std::size_t c = 3; c < 7; ++c) poses_[c * n + k] *= scale;
     }
@@ -214,7 +211,7 @@ class PoseSampler {
     const std::size_t n = block.count;
     for (std::size_t k = 0; k < n; ++k) {
       const Status found = statuses_[k];
-      const bool is_there = found == Status::converged || found == Status::singular;
+      const bool is_there = is_taken_[k] && (found == Status::converged || found == Status::singular);
       block.output(o, k) = !is_there ? not_a_number
                            : is_flag ? (output.field == Field::type_1 ? type_1_ : type_2_)[k]
                                      : column(output.field)[output.row * n + k];
@@ -225,7 +222,8 @@ class PoseSampler {
   const AskedPoses& asked_ = *shared_;
   const Robot& robot_ = asked_.robot;
   Workspace work_;
-  std::vector<double> poses_, squares_;  ///< of the quaternions given
+  std::vector<double> poses_;
+  std::vector<std::uint8_t> is_taken_;  ///< by a query
   std::vector<Status> statuses_;
   std::vector<std::uint8_t> type_1_, type_2_;
   std::array<std::vector<double>, 11> columns_;
@@ -254,7 +252,6 @@ SamplerKind plan_poses(Context& context, const RowPlaces& rows) {
              !wanted.along && wanted.words == usual_of(context.ask);
   AskedPoses asked{.robot = context.robot,
                    .is_inverse = context.ask == Ask::inverse,
-                   .is_spatial = std::holds_alternative<SpatialPose>(home(context.robot)),
                    .bending = std::move(branch.bending),
                    .elbow = std::move(branch.elbow)};
   if (!is_plain || !put_pose(at, rows, asked)) return {};

@@ -46,7 +46,7 @@ class RodSampler {
   /// A query would not take others.
   bool has_numbers(const SampleBlock& block, std::size_t k) const {
     return std::ranges::all_of(asked_.inputs,
-                               [&](const RowNumber& entry) { return std::isfinite(entry.at(block, k)); });
+                               [&](const RowNumber& entry) { return entry.is_taken(entry.at(block, k)); });
   }
   /// As they lie in memory where the inputs of a row do, one after the other.
   Numbers rows_of(const SampleBlock& block) {

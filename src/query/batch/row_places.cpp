@@ -61,9 +61,10 @@ bool RowPlaces::are_within(std::initializer_list<std::string_view> places) const
   });
 }
 
-std::vector<RowNumber> RowPlaces::numbers(std::string_view place, std::span<const double> read) const {
+std::vector<RowNumber> RowPlaces::numbers(std::string_view place, std::span<const double> read,
+                                          Range range) const {
   std::vector<RowNumber> all;
-  for (std::size_t k = 0; k < read.size(); ++k) all.push_back(number(joined(place, k), read[k]));
+  for (std::size_t k = 0; k < read.size(); ++k) all.push_back(number(joined(place, k), read[k], range));
   return all;
 }
 

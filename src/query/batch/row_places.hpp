@@ -1,6 +1,7 @@
 /// @file row_places.hpp
 /// A question of many rows as it is read once, and where in it the numbers of their columns go.
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <span>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "query/batch/sampler.hpp"
+#include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
 
@@ -17,10 +19,13 @@ namespace sinew::inline v1 {
 struct RowNumber {
   double value = 0;
   std::ptrdiff_t input = -1;  ///< −1: `value`
+  Range range = {};           ///< with which a reader reads it
 
   double at(const SampleBlock& block, std::size_t k) const {
     return input < 0 ? value : block.input(static_cast<std::size_t>(input), k);
   }
+  /// Whether a question would take a row's number: finite, and in its range.
+  bool is_taken(double number) const { return std::isfinite(number) && range.contains(number); }
 };
 
 class SINEW_API RowPlaces {
@@ -37,9 +42,12 @@ class SINEW_API RowPlaces {
   bool are_within(std::initializer_list<std::string_view> places) const;
   bool is_column(std::string_view place) const { return input_at(place) >= 0; }
   /// What goes to a place, such as `wrench[2]`, of which this was read of the trial.
-  RowNumber number(std::string_view place, double read) const { return {read, input_at(place)}; }
+  RowNumber number(std::string_view place, double read, Range range = {}) const {
+    return {read, input_at(place), range};
+  }
   /// The same of a list.
-  std::vector<RowNumber> numbers(std::string_view place, std::span<const double> read) const;
+  std::vector<RowNumber> numbers(std::string_view place, std::span<const double> read,
+                                 Range range = {}) const;
 
  private:
   std::ptrdiff_t input_at(std::string_view place) const;

@@ -9,6 +9,7 @@
 
 #include "query/batch/row_places.hpp"
 #include "query/serial/serial.hpp"
+#include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -79,20 +80,26 @@ class SerialSampler {
     const std::size_t sections = asked_->robot.sections.size(), n = block.count;
     bends_.resize(2 * sections * n);
     changes_.resize(work_.changes.size() * n);
+    is_taken_.assign(n, true);
     for (std::size_t k = 0; k < n; ++k) {
       for (std::size_t m = 0; m < sections; ++m) {
         const auto& [first, second] = asked_->configuration[m];
-        work_.bends[m] = bend_of(asked_->robot.sections[m], {first.at(block, k), second.at(block, k)});
+        const std::array<double, 2> angles{first.at(block, k), second.at(block, k)};
+        is_taken_[k] = is_taken_[k] && first.is_taken(angles[0]) && second.is_taken(angles[1]);
+        work_.bends[m] = bend_of(asked_->robot.sections[m], angles);
         for (std::size_t c = 0; c < 2; ++c)
           bends_[(2 * m + c) * n + k] = work_.bends[m][static_cast<Eigen::Index>(c)];
       }
-      block.statuses[k] = sample_status(check_limits(asked_->robot, work_.bends, work_.extensions).status);
+      block.statuses[k] =
+          is_taken_[k] ? sample_status(check_limits(asked_->robot, work_.bends, work_.extensions).status)
+                       : refused;
       if (has_ends_) put_ends(block, k);
     }
     tendon_changes_batch(bends_, asked_->model, changes_, work_);
     for (std::size_t o = 0; o < asked_->outputs.size(); ++o)
       if (const auto* tendon = std::get_if<std::size_t>(&asked_->outputs[o]))
-        for (std::size_t k = 0; k < n; ++k) block.output(o, k) = changes_[*tendon * n + k];
+        for (std::size_t k = 0; k < n; ++k)
+          block.output(o, k) = is_taken_[k] ? changes_[*tendon * n + k] : not_a_number;
     *block.done += n;
   }
 
@@ -104,8 +111,9 @@ class SerialSampler {
       const auto* end = std::get_if<EndNumber>(&asked_->outputs[o]);
       if (!end) continue;
       const SpatialPose pose = spatial_pose(work_.ends[end->section]);
-      block.output(o, k) = end->number < 3 ? pose.position[static_cast<Eigen::Index>(end->number)]
-                                           : pose.quaternion[end->number - 3];
+      block.output(o, k) = !is_taken_[k]     ? not_a_number
+                           : end->number < 3 ? pose.position[static_cast<Eigen::Index>(end->number)]
+                                             : pose.quaternion[end->number - 3];
     }
   }
 
@@ -113,6 +121,7 @@ class SerialSampler {
   bool has_ends_;
   SerialWorkspace work_;
   std::vector<double> bends_, changes_;
+  std::vector<bool> is_taken_;  ///< by a query
 };
 
 }  // namespace
@@ -127,7 +136,7 @@ SamplerKind plan_sections(Context& of_robot, const RowPlaces& rows) {
   if (!is_plain || !rows.are_within({"configuration"})) return {};
   AskedSections asked{.robot = context.robot, .model = read.model};
   for (std::size_t m = 0; m < read.shape.given.size(); ++m) {
-    const auto section = rows.numbers(joined("configuration", m), read.shape.given[m]);
+    const auto section = rows.numbers(joined("configuration", m), read.shape.given[m], bend_range);
     asked.configuration.push_back({section[0], section[1]});
   }
   asked.configuration.resize(context.robot.sections.size());

@@ -1,6 +1,4 @@
 /// `track` of robots on chains with `to`: curves of equilibria along loads and what tendons hold.
-#include "query/chains/chain_curves.hpp"
-
 #include "io/reader.hpp"
 #include "kinematics/chain_curve.hpp"
 #include "query/chains/chain_answer.hpp"
@@ -10,13 +8,16 @@ namespace sinew::inline v1::chains {
 namespace {
 
 template <class Space>
-struct CurveQuery {
+struct ChainCurves {
   Branch branch;
-  AnyPose at;                          ///< where tendons are set, or the search begins
-  std::vector<TendonConstraint> hold;  ///< tensions or lengths; of set_at none
-  bool holds_lengths;
-  Wrench<Space> wrench;
-  ChainCurveOptions<Space> how;
+  AnyPose at;                               ///< where tendons are set, or the search begins
+  std::vector<TendonConstraint> hold = {};  ///< tensions or lengths; of set_at none
+  bool holds_lengths = false;
+  Wrench<Space> wrench = Wrench<Space>::Zero();
+  ChainCurveOptions<Space> how = {};
+
+  static ChainCurves read(ChainContext<Space>& context);
+  static void answer(ChainContext<Space>& context, const ChainCurves& asked);
 };
 
 /// Tensions or lengths of the tendons, if given.
@@ -29,9 +30,10 @@ std::vector<TendonConstraint> read_hold(Reader& query, std::size_t legs) {
 }
 
 template <class Space>
-CurveQuery<Space> read_curve(Context& context, std::size_t legs) {
+ChainCurves<Space> ChainCurves<Space>::read(ChainContext<Space>& context) {
   Reader& query = context.query;
-  CurveQuery<Space> asked{read_branch(context), home(context.robot), {}, false, Wrench<Space>::Zero(), {}};
+  const std::size_t legs = context.chains.legs.size();
+  ChainCurves asked{read_branch(context), home(context.robot)};
   for (const char* key : {"from", "poses", "angles", "objective", "rk4_steps"})
     if (const auto given = query.optional(key))
       given->fail("ambiguous", "a curve of equilibria (to) begins where tendons are set; remove this");
@@ -65,7 +67,7 @@ CurveQuery<Space> read_curve(Context& context, std::size_t legs) {
 
 /// The equilibrium where the curve begins.
 template <class Space>
-Report begin(Context& context, ChainLegs<Space>& robot, const CurveQuery<Space>& asked,
+Report begin(Context& context, ChainLegs<Space>& robot, const ChainCurves<Space>& asked,
              ChainState<Space>& state, ChainWork& work) {
   ChainOptions options;
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
@@ -79,12 +81,9 @@ Report begin(Context& context, ChainLegs<Space>& robot, const CurveQuery<Space>&
   return equilibrium(robot, std::vector(state.hold), asked.wrench, state, work, options);
 }
 
-}  // namespace
-
 template <class Space>
-void answer_curves(Context& context, ChainLegs<Space>& robot) {
-  const CurveQuery<Space> asked = read_curve<Space>(context, robot.legs.size());
-  if (!context.ready()) return;
+void ChainCurves<Space>::answer(ChainContext<Space>& context, const ChainCurves& asked) {
+  ChainLegs<Space>& robot = context.chains;
   ChainState<Space> state;
   ChainWork& work = work_of(context);
   const Report report = begin(context, robot, asked, state, work);
@@ -105,7 +104,11 @@ void answer_curves(Context& context, ChainLegs<Space>& robot) {
   });
 }
 
-template void answer_curves(Context&, ChainLegs<Planar>&);
-template void answer_curves(Context&, ChainLegs<Spatial>&);
-
+}  // namespace
 }  // namespace sinew::inline v1::chains
+
+namespace sinew::inline v1 {
+
+void answer_chains_curves(Context& context) { chains::handle_chains<chains::ChainCurves>(context); }
+
+}  // namespace sinew::inline v1

@@ -1,10 +1,12 @@
-#include "query/chains/chain_sensing.hpp"
+/// `statics` of pseudo-rigid chains with tensions that are measured.
+#include "kinematics/chain_sensing.hpp"
 
 #include <fmt/format.h>
 
 #include "io/reader.hpp"
 #include "kinematics/chain_sensing.hpp"
 #include "kinematics/effort_sensor.hpp"
+#include "query/chains/chain_answer.hpp"
 
 namespace sinew::inline v1::chains {
 namespace {
@@ -68,31 +70,43 @@ HeldInputs held_of(Context& context, const ChainLegs<Space>& robot, const Sensin
   return {start, arcs_at(twin_of(context), start, asked.branch.options()), asked.hold};
 }
 
+template <class Space>
+struct ChainSensing {
+  SensingQuery at;
+  Load<Space> load;  ///< of which only what is wanted is given
+
+  static ChainSensing read(ChainContext<Space>& context) {
+    ChainSensing asked{
+        read_sensing(context, context.chains.legs.size(), static_cast<std::size_t>(Space::dof)), {}};
+    asked.load.wanted = read_wants_of_loads(context);
+    asked.load.twist = read_twist<Space>(context, asked.load.wanted);
+    if (context.max_iterations) asked.load.options.max_iterations = *context.max_iterations;
+    return asked;
+  }
+
+  static void answer(ChainContext<Space>& context, const ChainSensing& asked) {
+    ChainLegs<Space>& robot = context.chains;
+    const Load<Space>& load = asked.load;
+    ChainState<Space> state;
+    ChainWork& work = work_of(context);
+    const HeldInputs held = held_of(context, robot, asked.at);
+    SensedLoad<Space> sensed{unloaded(robot, held, state, work, load.options), {}};
+    if (is_solved(sensed.report)) sensed = sense_wrench(robot, asked.at.measured, state, work, load.options);
+    put_equilibrium<Space>(context, robot, state, sensed.report, nullptr, load, work);
+    if (!is_solved(sensed.report)) return;
+    put_matrix<Space>(context.answer, "wrench_sensitivity", sensed.sensitivity);
+    if (asked.at.deviations.empty()) return;
+    put_matrix<Space>(context.answer, "covariance",
+                      covariance_of<Space::dof>(sensed.sensitivity, asked.at.deviations));
+  }
+};
+
 }  // namespace
 
-template <class Space>
-void answer_sensing(Context& context, ChainLegs<Space>& robot) {
-  constexpr auto freedoms = static_cast<std::size_t>(Space::dof);
-  const SensingQuery asked = read_sensing(context, robot.legs.size(), freedoms);
-  Load<Space> load;
-  load.wanted = read_wants_of_loads(context);
-  load.twist = read_twist<Space>(context, load.wanted);
-  if (context.max_iterations) load.options.max_iterations = *context.max_iterations;
-  if (!context.ready()) return;
-  ChainState<Space> state;
-  ChainWork& work = work_of(context);
-  const HeldInputs held = held_of(context, robot, asked);
-  SensedLoad<Space> sensed{unloaded(robot, held, state, work, load.options), {}};
-  if (is_solved(sensed.report)) sensed = sense_wrench(robot, asked.measured, state, work, load.options);
-  put_equilibrium<Space>(context, robot, state, sensed.report, nullptr, load, work);
-  if (!is_solved(sensed.report)) return;
-  put_matrix<Space>(context.answer, "wrench_sensitivity", sensed.sensitivity);
-  if (asked.deviations.empty()) return;
-  put_matrix<Space>(context.answer, "covariance",
-                    covariance_of<Space::dof>(sensed.sensitivity, asked.deviations));
-}
-
-template void answer_sensing(Context&, ChainLegs<Planar>&);
-template void answer_sensing(Context&, ChainLegs<Spatial>&);
-
 }  // namespace sinew::inline v1::chains
+
+namespace sinew::inline v1 {
+
+void answer_chains_sensing(Context& context) { chains::handle_chains<chains::ChainSensing>(context); }
+
+}  // namespace sinew::inline v1

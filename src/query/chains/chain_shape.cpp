@@ -10,19 +10,22 @@ using namespace chains;
 
 /// Which chains are to be drawn.
 template <class Space>
-struct Asked {
+struct ChainDrawing {
   Configuration at;
   Joints<Space> joints;
-  std::optional<Wrench<Space>> wrench;
-  ChainOptions options;
+  std::optional<Wrench<Space>> wrench = {};
+  ChainOptions options = {};
+
+  static ChainDrawing read(ChainContext<Space>& context);
+  static void answer(ChainContext<Space>& context, const ChainDrawing& asked);
 };
 
 template <class Space>
-Asked<Space> read_asked(Context& context, ChainLegs<Space>& robot) {
+ChainDrawing<Space> ChainDrawing<Space>::read(ChainContext<Space>& context) {
   Reader& query = context.query;
   Configuration at = read_configuration(context);
-  Joints<Space> joints(context, robot, at.branch);
-  Asked<Space> asked{std::move(at), std::move(joints), {}, {}};
+  Joints<Space> joints(context, context.chains, at.branch);
+  ChainDrawing asked{std::move(at), std::move(joints)};
   if (const auto wrench = query.optional("wrench")) {
     asked.wrench = read_wrench<Space>(*wrench);
     if (asked.joints.are_given())
@@ -39,7 +42,7 @@ Asked<Space> read_asked(Context& context, ChainLegs<Space>& robot) {
 
 /// Rests under the wrench as `forward` has it from inputs, as `inverse` from a pose.
 template <class Space>
-Report rest_under(Context& context, ChainLegs<Space>& robot, const Asked<Space>& asked,
+Report rest_under(Context& context, ChainLegs<Space>& robot, const ChainDrawing<Space>& asked,
                   ChainState<Space>& state) {
   ChainWork& work = work_of(context);
   const Wrench<Space> wrench = asked.wrench.value_or(Wrench<Space>::Zero());
@@ -54,9 +57,8 @@ Report rest_under(Context& context, ChainLegs<Space>& robot, const Asked<Space>&
 }
 
 template <class Space>
-void answer_shape_of(Context& context, ChainLegs<Space>& robot) {
-  const Asked<Space> asked = read_asked(context, robot);
-  if (!context.ready()) return;
+void ChainDrawing<Space>::answer(ChainContext<Space>& context, const ChainDrawing& asked) {
+  ChainLegs<Space>& robot = context.chains;
   ChainState<Space> state;
   Report report;
   if (asked.joints.are_given()) {
@@ -81,8 +83,6 @@ void answer_shape_of(Context& context, ChainLegs<Space>& robot) {
 
 }  // namespace
 
-void answer_chains_shape(Context& context) {
-  on_chains(context, [&](auto& robot) { answer_shape_of(context, robot); });
-}
+void answer_chains_shape(Context& context) { handle_chains<ChainDrawing>(context); }
 
 }  // namespace sinew::inline v1

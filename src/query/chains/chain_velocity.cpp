@@ -8,7 +8,6 @@
 #include "analysis/chain_shape.hpp"
 #include "io/reader.hpp"
 #include "kinematics/chain_motion.hpp"
-#include "query/chains/chain_curves.hpp"
 #include "query/chains/chain_velocity.hpp"
 #include "solve/stopped.hpp"
 
@@ -86,14 +85,29 @@ Value legs_of(const ChainLegs<Space>& robot, std::span<const ChainLegState> legs
 }
 
 template <class Space>
-void answer_velocity_of(Context& context, ChainLegs<Space>& robot) {
-  Reader& query = context.query;
-  const AnyPose pose = read_pose(context, query.required("pose", "pose of the platform"));
-  const Joints joints(context, robot, read_branch(context));
+struct ChainMotion {
+  AnyPose pose;
+  Joints<Space> joints;
+  Wants wanted;
+  std::vector<double> twist;
+
+  static ChainMotion read(ChainContext<Space>& context);
+  static void answer(ChainContext<Space>& context, const ChainMotion& asked);
+};
+
+template <class Space>
+ChainMotion<Space> ChainMotion<Space>::read(ChainContext<Space>& context) {
+  const AnyPose pose = read_pose(context, context.query.required("pose", "pose of the platform"));
+  Joints joints(context, context.chains, read_branch(context));
   const Wants wanted =
       read_wants(context, usual_of(context.ask), usual_wants | Wants{Want::velocity, Want::shape});
-  const std::vector<double> twist = read_twist<Space>(context, wanted);
-  if (!context.ready()) return;
+  return {pose, std::move(joints), wanted, read_twist<Space>(context, wanted)};
+}
+
+template <class Space>
+void ChainMotion<Space>::answer(ChainContext<Space>& context, const ChainMotion& asked) {
+  const auto& [pose, joints, wanted, twist] = asked;
+  ChainLegs<Space>& robot = context.chains;
   std::vector<ChainLegState> legs;
   const Report report = joints.at(context, robot, pose, legs);
   if (!report.ok()) return context.report(report);
@@ -133,16 +147,30 @@ bool is_curve(Reader& query) {
 }
 
 template <class Space>
-void answer_track_of(Context& context, ChainLegs<Space>& robot) {
-  Reader& query = context.query;
-  if (is_curve(query)) return answer_curves(context, robot);
-  const std::vector<AnyPose> poses = read_path(context);
-  const Joints joints(context, robot, read_branch(context));
-  ChainMotionOptions options;
-  options.objective = read_objective(query);
-  if (const auto steps = query.optional("rk4_steps"))
-    options.rk4_steps = steps->integer(Range::between(1, 1000));
-  if (!context.ready()) return;
+struct ChainPath {
+  std::vector<AnyPose> poses;
+  Joints<Space> joints;
+  ChainMotionOptions options = {};
+
+  static ChainPath read(ChainContext<Space>& context);
+  static void answer(ChainContext<Space>& context, const ChainPath& asked);
+};
+
+template <class Space>
+ChainPath<Space> ChainPath<Space>::read(ChainContext<Space>& context) {
+  std::vector<AnyPose> poses = read_path(context);
+  Joints joints(context, context.chains, read_branch(context));
+  ChainPath asked{std::move(poses), std::move(joints)};
+  asked.options.objective = read_objective(context.query);
+  if (const auto steps = context.query.optional("rk4_steps"))
+    asked.options.rk4_steps = steps->integer(Range::between(1, 1000));
+  return asked;
+}
+
+template <class Space>
+void ChainPath<Space>::answer(ChainContext<Space>& context, const ChainPath& asked) {
+  const auto& [poses, joints, options] = asked;
+  ChainLegs<Space>& robot = context.chains;
   std::vector<ChainLegState> legs;
   Report report = joints.at(context, robot, poses.front(), legs);
   Value rows = Value::list();
@@ -155,8 +183,8 @@ void answer_track_of(Context& context, ChainLegs<Space>& robot) {
     rows.push_back(row_value(robot, poses[k], legs));
     worst = std::max(worst, rows.back()["closure_error"].number().value_or(0));
     if (k == 0 && !(worst <= 1e-9))
-      return query.fail("not_closed",
-                        fmt::format("the first pose and the angles contradict each other: a leg misses "
+      return context.query.fail(
+          "not_closed", fmt::format("the first pose and the angles contradict each other: a leg misses "
                                     "by {:.3g} m; leave the angles out to have them solved",
                                     worst));
   }
@@ -169,11 +197,12 @@ void answer_track_of(Context& context, ChainLegs<Space>& robot) {
 }  // namespace
 
 void answer_chains_track(Context& context) {
-  on_chains(context, [&](auto& robot) { answer_track_of(context, robot); });
+  if (is_curve(context.query))
+    answer_chains_curves(context);
+  else
+    handle_chains<ChainPath>(context);
 }
 
-void answer_chains_velocity(Context& context) {
-  on_chains(context, [&](auto& robot) { answer_velocity_of(context, robot); });
-}
+void answer_chains_velocity(Context& context) { handle_chains<ChainMotion>(context); }
 
 }  // namespace sinew::inline v1

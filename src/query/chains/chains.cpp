@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "io/reader.hpp"
-#include "query/chains/chain_sensing.hpp"
 #include "query/chains/chain_solutions.hpp"
 
 namespace sinew::inline v1 {
@@ -84,113 +83,142 @@ void refuse_threshold(Context& context) {
 }
 
 template <class Space>
-void answer_statics_of(Context& context, ChainLegs<Space>& robot) {
-  Reader& query = context.query;
-  if (query.has("measured_tensions")) return answer_sensing(context, robot);
-  const std::size_t legs = robot.legs.size();
-  const Branch branch = read_branch(context);
-  const Load<Space> load = read_load<Space>(context);
-  const auto tensions = query.optional("tensions"), lengths = query.optional("lengths"),
-             is_inverse = query.optional("inverse"), hold_word = query.optional("hold");
-  auto set_at = query.optional("set_at"), pose = query.optional("pose"), start = query.optional("start");
-  const bool inverse_asked = is_inverse && is_inverse->boolean();
-  const int ways = (tensions ? 1 : 0) + (lengths ? 1 : 0) + (set_at ? 1 : 0) + (inverse_asked ? 1 : 0);
-  if (ways == 0)
-    query.fail(
-        "missing_key",
-        "give tensions, lengths or set_at: a pose at which the tendons are set without load; or inverse: "
-        "true with a pose");
-  if (ways > 1)
-    query.fail("ambiguous", "tensions, lengths, set_at and inverse each say what holds the robot; keep one");
-  if (inverse_asked && !pose) query.required("pose", "that the loaded platform is to have");
-  if (pose && !inverse_asked) pose->fail("no_effect", "is asked of inverse statics only; add inverse: true");
-  if (hold_word && !set_at && !inverse_asked)
-    hold_word->fail("no_effect", "says what set_at or inverse leaves held; remove it");
-  if (start && !tensions && !lengths)
-    start->fail("no_effect", "is where tensions or lengths begin from; remove it");
-  if (load.until && inverse_asked)
-    query.fail("ambiguous", "until follows a load, inverse holds a pose; keep one");
-  if (load.threshold && inverse_asked) refuse_threshold(context);
-  const bool holds_lengths = hold_word && hold_word->choice({"tension", "length"}) == "length";
-  std::vector<TendonConstraint> hold;
-  if (tensions) hold = read_tensions(*tensions, legs);
-  if (lengths) hold = read_lengths(*lengths, legs);
-  AnyPose at = home(context.robot);
-  for (auto* given : {&set_at, &pose, &start})
-    if (*given) at = read_pose(context, std::move(**given));
-  if (!context.ready()) return;
-  if (!hold.empty()) {
-    const HeldInputs held{at, arcs_at(twin_of(context), at, branch.options()), hold};
-    return answer_held(context, robot, held, load);
+struct ChainStatics {
+  Branch branch;
+  Load<Space> load;
+  std::vector<TendonConstraint> hold;  ///< tensions or lengths; none where tendons are set at a pose
+  AnyPose at;                          ///< where tendons are set, or held, or the search begins
+  bool is_inverse = false, holds_lengths = false;
+
+  static ChainStatics read(ChainContext<Space>& context) {
+    Reader& query = context.query;
+    const std::size_t legs = context.chains.legs.size();
+    ChainStatics asked{read_branch(context), read_load<Space>(context), {}, home(context.robot)};
+    const Load<Space>& load = asked.load;
+    const auto tensions = query.optional("tensions"), lengths = query.optional("lengths"),
+               is_inverse = query.optional("inverse"), hold_word = query.optional("hold");
+    auto set_at = query.optional("set_at"), pose = query.optional("pose"), start = query.optional("start");
+    asked.is_inverse = is_inverse && is_inverse->boolean();
+    const int ways = (tensions ? 1 : 0) + (lengths ? 1 : 0) + (set_at ? 1 : 0) + (asked.is_inverse ? 1 : 0);
+    if (ways == 0)
+      query.fail(
+          "missing_key",
+          "give tensions, lengths or set_at: a pose at which the tendons are set without load; or inverse: "
+          "true with a pose");
+    if (ways > 1)
+      query.fail("ambiguous",
+                 "tensions, lengths, set_at and inverse each say what holds the robot; keep one");
+    if (asked.is_inverse && !pose) query.required("pose", "that the loaded platform is to have");
+    if (pose && !asked.is_inverse)
+      pose->fail("no_effect", "is asked of inverse statics only; add inverse: true");
+    if (hold_word && !set_at && !asked.is_inverse)
+      hold_word->fail("no_effect", "says what set_at or inverse leaves held; remove it");
+    if (start && !tensions && !lengths)
+      start->fail("no_effect", "is where tensions or lengths begin from; remove it");
+    if (load.until && asked.is_inverse)
+      query.fail("ambiguous", "until follows a load, inverse holds a pose; keep one");
+    if (load.threshold && asked.is_inverse) refuse_threshold(context);
+    asked.holds_lengths = hold_word && hold_word->choice({"tension", "length"}) == "length";
+    if (tensions) asked.hold = read_tensions(*tensions, legs);
+    if (lengths) asked.hold = read_lengths(*lengths, legs);
+    for (auto* given : {&set_at, &pose, &start})
+      if (*given) asked.at = read_pose(context, std::move(**given));
+    return asked;
   }
 
-  ChainState<Space> state;
-  const Report report = rest_at(context, robot, at, branch, holds_lengths, state);
-  ChainWork& work = work_of(context);
-  if (!report.ok()) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-  const ChainState<Space> unloaded = state;
-  if (!inverse_asked) return load_and_answer(context, robot, state, unloaded, load);
-  const Report held = inverse_statics(robot, load.wrench, state, work, load.options);
-  put_equilibrium<Space>(context, robot, state, held, nullptr, load, work);
-}
+  static void answer(ChainContext<Space>& context, const ChainStatics& asked) {
+    ChainLegs<Space>& robot = context.chains;
+    const Load<Space>& load = asked.load;
+    if (!asked.hold.empty()) {
+      const HeldInputs held{asked.at, arcs_at(twin_of(context), asked.at, asked.branch.options()),
+                            asked.hold};
+      return answer_held(context, robot, held, load);
+    }
+    ChainState<Space> state;
+    const Report report = rest_at(context, robot, asked.at, asked.branch, asked.holds_lengths, state);
+    ChainWork& work = work_of(context);
+    if (!report.ok()) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
+    const ChainState<Space> unloaded = state;
+    if (!asked.is_inverse) return load_and_answer(context, robot, state, unloaded, load);
+    const Report held = inverse_statics(robot, load.wrench, state, work, load.options);
+    put_equilibrium<Space>(context, robot, state, held, nullptr, load, work);
+  }
+};
 
 template <class Space>
-void answer_forward_of(Context& context, ChainLegs<Space>& robot) {
-  const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
-  const Load<Space> load = read_load<Space>(context);
-  const std::optional<AnyPose> start = read_start(context);
-  const bool wants_all = read_all(context);
-  if (wants_all && load.until)
-    context.query.fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
-  if (!context.ready()) return;
-  const HeldInputs held = hold_inputs(context, robot, inputs, start ? start : context.path_start());
-  context.remember({});  // until the chains are found
-  if (!held.arcs.report.ok()) return context.report(held.arcs.report);
-  answer_held(context, robot, held, load);
-  if (wants_all) put_all_equilibria(context, robot, held, inputs, load);
-}
+struct ChainForward {
+  std::vector<double> inputs;
+  Load<Space> load;
+  std::optional<AnyPose> start;
+  bool wants_all = false;
+
+  static ChainForward read(ChainContext<Space>& context) {
+    ChainForward asked;
+    asked.inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
+    asked.load = read_load<Space>(context);
+    asked.start = read_start(context);
+    asked.wants_all = read_all(context);
+    if (asked.wants_all && asked.load.until)
+      context.query.fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
+    return asked;
+  }
+
+  static void answer(ChainContext<Space>& context, const ChainForward& asked) {
+    const HeldInputs held =
+        hold_inputs(context, context.chains, asked.inputs, asked.start ? asked.start : context.path_start());
+    context.remember({});  // until the chains are found
+    if (!held.arcs.report.ok()) return context.report(held.arcs.report);
+    answer_held(context, context.chains, held, asked.load);
+    if (asked.wants_all) put_all_equilibria(context, context.chains, held, asked.inputs, asked.load);
+  }
+};
 
 template <class Space>
-void answer_inverse_of(Context& context, ChainLegs<Space>& robot) {
-  auto pose = context.query.required("pose", "pose of the platform");
-  const AnyPose at = read_pose(context, std::move(pose));
-  const Branch branch = read_branch(context);
-  const Load<Space> load = read_load<Space>(context);
-  if (load.until)
-    context.query.fail("ambiguous", "until follows a load, inverse holds a pose; leave until out");
-  if (load.threshold) refuse_threshold(context);
-  const bool wants_all = read_all(context);
-  if (!context.ready()) return;
-  ChainState<Space> state;
-  Report report = rest_at(context, robot, at, branch, true, state);
-  ChainWork& work = work_of(context);
-  if (report.ok()) report = inverse_statics(robot, load.wrench, state, work, load.options);
-  put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-  if (is_solved(report)) context.answer["inputs"] = Value(inputs_of(twin_of(context), robot, state));
-  if (wants_all) put_all_inverses(context, robot, at, branch, load);
-}
+struct ChainInverse {
+  AnyPose at;
+  Branch branch;
+  Load<Space> load;
+  bool wants_all = false;
 
-void answer_chains_forward(Context& context) {
-  on_chains(context, [&](auto& robot) { answer_forward_of(context, robot); });
-}
+  static ChainInverse read(ChainContext<Space>& context) {
+    auto pose = context.query.required("pose", "pose of the platform");
+    ChainInverse asked{read_pose(context, std::move(pose)), read_branch(context), read_load<Space>(context)};
+    if (asked.load.until)
+      context.query.fail("ambiguous", "until follows a load, inverse holds a pose; leave until out");
+    if (asked.load.threshold) refuse_threshold(context);
+    asked.wants_all = read_all(context);
+    return asked;
+  }
 
-void answer_chains_inverse(Context& context) {
-  on_chains(context, [&](auto& robot) { answer_inverse_of(context, robot); });
-}
+  static void answer(ChainContext<Space>& context, const ChainInverse& asked) {
+    ChainLegs<Space>& robot = context.chains;
+    const Load<Space>& load = asked.load;
+    ChainState<Space> state;
+    Report report = rest_at(context, robot, asked.at, asked.branch, true, state);
+    ChainWork& work = work_of(context);
+    if (report.ok()) report = inverse_statics(robot, load.wrench, state, work, load.options);
+    put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
+    if (is_solved(report)) context.answer["inputs"] = Value(inputs_of(twin_of(context), robot, state));
+    if (asked.wants_all) put_all_inverses(context, robot, asked.at, asked.branch, load);
+  }
+};
 
-void answer_chains_statics(Context& context) {
-  on_chains(context, [&](auto& robot) { answer_statics_of(context, robot); });
+void answer_statics(Context& context) {
+  if (context.query.has("measured_tensions"))
+    answer_chains_sensing(context);
+  else
+    handle_chains<ChainStatics>(context);
 }
 
 }  // namespace
 
 constexpr Handlers chain_handlers{.robots = "pseudo-rigid chains",
                                   .wants = equilibrium_wants,
-                                  .forward = answer_chains_forward,
-                                  .inverse = answer_chains_inverse,
+                                  .forward = handle_chains<ChainForward>,
+                                  .inverse = handle_chains<ChainInverse>,
                                   .velocity = answer_chains_velocity,
                                   .shape = answer_chains_shape,
-                                  .statics = answer_chains_statics,
+                                  .statics = answer_statics,
                                   .track = answer_chains_track,
                                   .describe = tell<describe_platform>};
 

@@ -9,11 +9,13 @@
 
 namespace sinew::inline v1 {
 
-/// @name In files of their own
+/// @name Handlers in files of their own
 /// @{
 void answer_chains_velocity(Context& context);
 void answer_chains_shape(Context& context);
 void answer_chains_track(Context& context);
+void answer_chains_curves(Context& context);   ///< `track` along loads and what tendons hold
+void answer_chains_sensing(Context& context);  ///< `statics` with tensions that are measured
 /// @}
 
 /// What the handlers share.
@@ -21,6 +23,23 @@ namespace chains {
 
 template <class Space>
 using Wrench = Vec<double, Space::dof>;
+
+/// A question put to chains in the plane or in space.
+template <class Space>
+struct ChainContext : Context {
+  ChainLegs<Space> chains;  ///< the robot's: a copy, into which directions of motors go that a question gives
+  explicit ChainContext(Context& context) : Context(context), chains(chains_of<Space>(context.robot)) {}
+};
+
+/// The handler of a question in both spaces: `Asked<Space>` is what is read of it, with who reads and who
+/// answers it.
+template <template <class> class Asked>
+void handle_chains(Context& context) {
+  if (context.robot.planar_chains())
+    handle<Asked<Planar>::read, Asked<Planar>::answer>(context);
+  else
+    handle<Asked<Spatial>::read, Asked<Spatial>::answer>(context);
+}
 
 /// Angles per leg, from the first sprung joint; before them the direction of the first link where a motor
 /// turns it, which goes into the robot.
@@ -55,11 +74,6 @@ Value::List angles_value(const ChainLegs<Space>& robot, std::span<const ChainLeg
   return list;
 }
 
-/// Calls `use` with a copy of the robot's chains, whose bases motors turn.
-template <class Use>
-void on_chains(const Context& context, Use&& use) {
-  with_chains(context.robot, [&](auto legs) { use(legs); });
-}
 inline ArcTwin twin_of(const Context& context) { return {context.robot, context.work}; }
 /// The solvers' memory.
 inline ChainWork& work_of(const Context& context) {

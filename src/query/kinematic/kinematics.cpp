@@ -235,8 +235,10 @@ void answer_inverse(Context& context, const KinematicInverse& asked) {
   context.report(result.report);
   if (!result.ok()) return;
   context.answer["inputs"] = result.inputs;
-  put_wanted(context, asked.wanted,
-             {.inputs = std::vector(result.inputs.begin(), result.inputs.end()), .branch = asked.branch},
+  Configuration given;
+  if (asked.wanted.along)  // which alone asks how it was given
+    given = {.inputs = std::vector(result.inputs.begin(), result.inputs.end()), .branch = asked.branch};
+  put_wanted(context, asked.wanted, given,
              {result.report, pose, {result.coordinates.begin(), result.coordinates.end()}});
   context.answer["residual"] = result.report.residual;
   if (asked.wants_all) context.answer["solutions"] = all_working_modes(context, pose, asked.branch);

@@ -36,9 +36,9 @@ EquilibriumOptions read_equilibrium_options(Context& context) {
 
 IndependentPose read_independent(const Context& context, Reader& asked) {
   IndependentPose pose;
-  pose.z = asked.required("z", "height of the platform").quantity(Dimension::length, Range::place());
-  pose.e1 = asked.required("e1", "a component of its quaternion").number(Range::between(-1, 1));
-  pose.e2 = asked.required("e2", "a component of its quaternion").number(Range::between(-1, 1));
+  pose.z = asked.required("z", "height of the platform").quantity(Dimension::length, PoseRange::coordinate);
+  pose.e1 = asked.required("e1", "a component of its quaternion").number(PoseRange::component);
+  pose.e2 = asked.required("e2", "a component of its quaternion").number(PoseRange::component);
   if (const auto mode = asked.optional("mode"))
     mode->refuse("no_effect", "rods have no such modes, hinges have; leave it out");
   if (asked.is(Node::Kind::map)) asked.close();
@@ -210,8 +210,9 @@ void put_rod_wants(Context& context, const Equilibrium& found, const RodWants& w
   Value& answer = context.answer;
   if (words.has(Want::pose)) answer["pose"] = pose_value(found.pose);
   answer["inputs"] = found.inputs;
-  if (!(words - Wants{Want::pose, Want::shape}).is_empty()) {
-    const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
+  if (const Wants more = words - Wants{Want::pose, Want::shape}; !more.is_empty()) {
+    const RodAnalysis analysis = more == Wants{Want::legs} ? read_rods(context.robot, context.work)
+                                                           : analyse_equilibrium(context.robot, context.work);
     if (words.has(Want::legs)) {
       answer["legs"] = legs_of(context, found, analysis);
       answer["energy"] = analysis.energy;

@@ -75,8 +75,8 @@ SerialConfiguration read_configuration(SerialContext& context, const Reader& lis
     }
     const auto parts = items[m].items(has_extension ? 3 : 2);
     if (parts.size() < 2 || given != parts.size()) continue;
-    shape.given.push_back({parts[0].quantity(Dimension::angle, Range::turn()),
-                           parts[1].quantity(Dimension::angle, Range::turn())});
+    shape.given.push_back(
+        {parts[0].quantity(Dimension::angle, bend_range), parts[1].quantity(Dimension::angle, bend_range)});
     shape.bends[m] = bend_of(section, shape.given.back());
     if (has_extension) shape.extensions[m] = parts[2].quantity(Dimension::length, Range::place());
   }

@@ -34,6 +34,9 @@ kernel::Model read_tendon_model(SerialContext& context, kernel::Model otherwise)
 /// The entries of a list of sections: at most as many as there are; the sections after them are straight.
 std::vector<Reader> section_items(const SerialContext& context, const Reader& list);
 
+/// What the two angles of a section may be [rad]: of questions, and of rows, which put others in their place.
+inline constexpr Range bend_range = Range::turn();
+
 /// Shape of all sections.
 struct SerialConfiguration {
   std::vector<std::array<double, 2>> given;  ///< as a question has it, of those sections that it names
