@@ -58,14 +58,9 @@ struct sinew_session : sinew_object {
     }
     return answer.dump();
   }
-  void begin() {
+  void set_busy(bool is) {
     const std::scoped_lock lock(guard);
-    is_busy = true;
-    so_far.reset();
-  }
-  void end() {
-    const std::scoped_lock lock(guard);
-    is_busy = false;
+    is_busy = is;
     so_far.reset();
   }
   sinew::Session session;
@@ -74,6 +69,17 @@ struct sinew_session : sinew_object {
   std::mutex guard;  ///< of what follows
   bool is_busy = false;
   std::optional<sinew::QuestionProgress> so_far = {};
+};
+
+/// While it lives a question is answered.
+struct BusySession {
+  explicit BusySession(sinew_session& session) : session_(session) { session_.set_busy(true); }
+  BusySession(const BusySession&) = delete;
+  BusySession& operator=(const BusySession&) = delete;
+  ~BusySession() { session_.set_busy(false); }
+
+ private:
+  sinew_session& session_;
 };
 
 struct sinew_batch : sinew_object {
@@ -185,15 +191,12 @@ char* sinew_ask(sinew_session* session, const char* question, std::size_t size, 
   try {
     if (asks_progress({question, size})) return answer(session->progress());
     session->is_to_stop = false;
-    session->begin();
+    const BusySession busy(*session);
     session->session.answer({question, size}, session->text);
-    session->end();
     return answer(session->text);
   } catch (const std::bad_alloc&) {
-    session->end();
     return nullptr;
   } catch (const std::exception&) {
-    session->end();
     return answer(failed_answer);
   }
 }
