@@ -140,7 +140,8 @@ void add_dense(Series& to, const Series& from, double shade) {
 /// An arm: discs, its tendons in the colours of their tensions, those that are slack dashed, its backbone.
 std::vector<Series> arm_drawing(const Answer& shape) {
   std::vector<Series> all;
-  const auto& discs = shape.find("discs")->items;
+  const Node* const told = shape.find("discs");  // none in the plane
+  const std::vector<Node> discs = told ? told->items : std::vector<Node>();
   const auto& tendons = shape.find("tendons")->items;
   double around = 0;  // tendons run within the discs
   for (const Node& section : tendons)
@@ -386,7 +387,8 @@ Panel space(std::vector<Series> all, std::array<Axis, 3> axes, const Answer& sha
 }  // namespace
 
 Figure robot_figure(const Answer& shape, const OpenRobot& robot, const std::optional<Eye>& eye) {
-  const bool on_arms = stands_on_arms(robot), is_row = is_serial(robot) || is_arm(robot) || on_arms;
+  const bool on_arms = stands_on_arms(robot),
+             is_row = is_serial(robot) || is_arm(robot) || (on_arms && robot.is_spatial);
   auto all = is_arm(robot) || on_arms ? arm_drawing(shape)
              : is_serial(robot)       ? serial_drawing(shape)
                                       : drawing(shape, *robot.description.find("legs"));

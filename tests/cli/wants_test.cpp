@@ -31,6 +31,24 @@ TEST(Lists, SayNothingOfWhatTheOtherListHolds) {
   EXPECT_EQ(serial.exit, 2) << serial.out << serial.err;
 }
 
+/// A new robot is a row: every command that takes a robot alone takes this one.
+TEST(Robots, AreDrawnCheckedAndShown) {
+  const Scratch scratch;
+  for (const auto& file :
+       std::filesystem::directory_iterator(std::filesystem::path(source_folder) / "robots")) {
+    const std::string robot = file.path().string();
+    const Outcome plotted =
+        run_program({command_path, "plot", robot, "-o", "robot.svg", "-q"}, scratch.path());
+    EXPECT_EQ(plotted.exit, 0) << robot << '\n' << plotted.err;
+    EXPECT_NE(read_text(scratch.path() / "robot.svg").find("</svg>"), std::string::npos) << robot;
+    const Outcome checked = run_program({command_path, "check", robot}, scratch.path());
+    EXPECT_EQ(checked.exit, 0) << robot << '\n' << checked.err;
+    const Outcome solid =
+        run_program({command_path, "plot", robot, "--as", "3d", "-o", "robot.svg", "-q"}, scratch.path());
+    EXPECT_TRUE(solid.exit == 0 || solid.err.find("moves in a plane") != std::string::npos) << robot;
+  }
+}
+
 TEST(Wants, AreShownWhateverTheyLeaveOut) {
   const char* lines[] = {
       "forward 3-rfr --inputs 0.19,0.19,0.188",

@@ -88,7 +88,8 @@ function questions = questions_of (r)
   end
   if strcmp (d.kind, 'arm_legs')
     f = r.forward ('changes', []);
-    place = round (f.pose.position * 1e6) * 1e-6;
+    if isfield (f.pose, 'x'), place = [f.pose.x f.pose.y]; else, place = f.pose.position; end
+    place = round (place * 1e6) * 1e-6;
     questions = {ask('forward', 'changes', []), ask('inverse', 'position', place), ask('shape', 'changes', [], 'samples', 3), ...
                  ask('velocity', 'changes', []), ask('track', 'from', f.pose, 'to', f.pose), ...
                  ask('track', 'points', {struct('changes', {{}})}, 'steps', 2), ask('statics'), ask('diagram')};

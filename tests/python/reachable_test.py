@@ -41,9 +41,12 @@ def questions(robot):
             yield verb, {"changes": rest.changes}
         yield "forward", {"tensions": rest.tensions}
         yield "inverse", {"pose": pose}
-        yield "inverse", {"position": rest.pose.position}
+        is_planar = "phi" in pose
+        place = [pose["x"], pose["y"]] if is_planar else rest.pose.position
+        yield "inverse", {"position": place}
         yield "statics", {"changes": rest.changes, "pose": pose}
-        yield "track", {"points": [{"changes": rest.changes}, {"wrench": [0, 0, 0.01, 0, 0, 0]}], "steps": 1}
+        wrench = [0.01, 0, 0] if is_planar else [0, 0, 0.01, 0, 0, 0]
+        yield "track", {"points": [{"changes": rest.changes}, {"wrench": wrench}], "steps": 1}
         return
     home = about.home.to_dict()
     yield "inverse", {"pose": home}

@@ -9,7 +9,6 @@ namespace {
 
 constexpr int parts = 16;       ///< of the shape that is told of each
 constexpr double still = 1e-6;  ///< a margin below which an equilibrium may move freely [1]
-constexpr double alike = 1e-8;  ///< potentials of one continuum differ by less, over EI/L or themselves
 
 /// What is least at an equilibrium that holds: with the motors that hold tensions [J].
 double whole_potential(const ArmState& one, std::span<const TendonCommand> commands) {
@@ -29,6 +28,8 @@ std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const Tendo
   std::normal_distribution<double> normal;
   ArmOptions each = options;
   each.from_last = false;
+  // Potentials of one continuum differ by less, over EI/L or themselves: each has an error of its own.
+  const double alike = std::max(1e-8, 10 * options.accuracy);
   const auto is_known = [&](const ArmState& state, bool continuum) {
     const double potential = whole_potential(state, commands);
     return std::ranges::any_of(found, [&](const ArmEquilibrium& other) {
