@@ -81,7 +81,7 @@ SHAPES = {
                        "blocks": {"type": "array", "items": {"type": "integer"}}}}]},
     "point_loads": {"type": "array", "items": {"type": "object", "required": ["place", "wrench"], "additionalProperties": False,
                     "properties": {"place": {"$ref": "#/definitions/quantity"}, "wrench": NUMBERS,
-                                   "following": {"type": "boolean"}}}},
+                                   "following": {"type": "boolean"}, "leg": {"type": "integer", "minimum": 0}}}},
 }
 
 

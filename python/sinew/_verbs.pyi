@@ -107,10 +107,12 @@ class Verbs:
                 stiffens; (k,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
+                sections, in base axes [N/m]; (3,)
             distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following
+                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
+                0, place and wrench, whose moment is 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -243,10 +245,12 @@ class Verbs:
                 platform on legs of sections; (3,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
+                sections, in base axes [N/m]; (3,)
             distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following
+                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
+                0, place and wrench, whose moment is 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -386,10 +390,12 @@ class Verbs:
                 out, section after section, of legs of sections leg after leg; a list each, or an array
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
+                sections, in base axes [N/m]; (3,)
             distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following
+                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
+                0, place and wrench, whose moment is 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -541,10 +547,12 @@ class Verbs:
                 sections; of statics where it was seen; (3,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
+                sections, in base axes [N/m]; (3,)
             distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following
+                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
+                0, place and wrench, whose moment is 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -683,10 +691,12 @@ class Verbs:
                 curve, at most, default 500
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
+                sections, in base axes [N/m]; (3,)
             distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following
+                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
+                0, place and wrench, whose moment is 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -903,10 +913,12 @@ class Verbs:
                 out, section after section, of legs of sections leg after leg; a list each, or an array
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
+                sections, in base axes [N/m]; (3,)
             distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following
+                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
+                0, place and wrench, whose moment is 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs

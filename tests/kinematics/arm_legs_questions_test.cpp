@@ -468,12 +468,23 @@ TEST(ArmLegsAttack, AnyNumbersAreAnsweredWithAStatus) {
     }
     ArmLegsLoad load;
     for (double& x : load.wrench) x = any(0.1 * size);
+    const auto put_loads = [&] {
+      for (double& x : load.along) x = any(0.1 * size);
+      load.points.resize(random() % 3);
+      for (ArmLegsPointLoad& point : load.points) {
+        point = {random() % 3, std::abs(any(0.19)), {any(0.1 * size), any(0.1 * size), any(0.1 * size)}};
+        if (uniform(random, 0, 1) < 0.02) point.wrench[4] = any(1);
+        if (uniform(random, 0, 1) < 0.02) point.leg = random();
+      }
+    };
+    put_loads();
     const auto said = [](const Report& report) {
       EXPECT_TRUE(report.ok() || !report.message.empty()) << to_string(report.status);
     };
     said(arm_legs_forward(robot, commands, load, options, work).report);
     options.from_last = true;
     for (TendonCommand& command : commands) command.value = std::abs(any(size));
+    put_loads();
     said(arm_legs_forward(robot, commands, load, options, work).report);
     const SE3<double> pose{{any(0.05), any(0.05), 0.19 + any(0.02)},
                            SO3<double>::exp({any(0.5), any(0.5), any(0.5)})};

@@ -190,9 +190,9 @@ TEST(ArmLegs, ColumnsGiveWayAtEulersLoad) {
     for (ArmLeg& leg : robot.legs)
       for (ArmSection& section : leg.arm.sections)  // as stiff against stretch as makes it not count
         for (CrossSection* end : {&section.start, &section.end}) end->stretch = end->shear = 1e9;
-    ArmGroup group(robot, {});
+    ArmGroup group(robot, {}, breaks_for(robot, {}));
     std::vector<TendonCommand> commands(18);
-    group.set_problem(commands, ArmGroup::Wrench::Zero(), {0, 0, 0});
+    group.set_problem(commands, ArmGroup::Wrench::Zero(), {});
     group.set_share(1);
     ASSERT_LT(group.evaluate(), 1e-12);
     ASSERT_TRUE(group.linearise());

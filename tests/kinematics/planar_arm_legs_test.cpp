@@ -172,6 +172,69 @@ TEST(PlanarArmLegs, EveryLegAloneIsTheArmInSpaceUnderItsForce) {
     }
 }
 
+/// Loads on legs: each leg is the arm under the same ones, in every closure, and what moves along a leg from
+/// the last equilibrium on is what the rest grows into.
+TEST(PlanarArmLegs, LegsBearLoadsInThePlane) {
+  const auto commands = mixed();
+  for (const int discs : {5, 0})
+    for (ArmLegs robot : every_robot()) {
+      for (ArmLeg& leg : robot.legs)
+        for (ArmSection& section : leg.arm.sections) section.discs.count = discs;
+      ArmLegsLoad load = pushed;
+      load.along = {0.2, -0.3, 0};
+      load.points = {{0, 0.033, {0.05, 0.08}}, {2, 0.2, {-0.06, 0.02}}, {1, 0.1, {0, 0.03}}};
+      ArmLegsWorkspace work(robot), other(robot);
+      const ArmLegsState state = arm_legs_forward(robot, commands, load, {.accuracy = 0}, work);
+      ASSERT_TRUE(state.report.ok()) << robot.name << ' ' << state.report.message.view();
+      double across[2] = {};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const ArmLeg& leg = robot.legs[k];
+        Arm arm = leg.arm;
+        const double ends[] = {0, arm.length()};
+        const auto frames = arm_frames(arm, ends, arm_legs_shape(work, k));
+        const SE3<double>& base = frames[0];
+        const auto back = [&](double x, double y) {
+          const Vec3<double> v = base.rotate_back(Vec3<double>(x, y, 0));
+          return std::array<double, 3>{v[0], v[1], v[2]};
+        };
+        const auto& tip = state.tip_loads[k];
+        const Vec3<double> moment = base.rotate_back(Vec3<double>(0, 0, tip[5]));
+        const auto force = back(tip[0], tip[1]);
+        arm.gravity = back(robot.gravity[0], robot.gravity[1]);
+        ArmLoad own;
+        own.wrench = {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
+        own.along = back(load.along[0], load.along[1]);
+        for (const ArmLegsPointLoad& point : load.points) {
+          if (point.leg != k) continue;
+          const auto f = back(point.wrench[0], point.wrench[1]);
+          own.points.emplace_back().place = point.place;
+          own.points.back().wrench = {f[0], f[1], f[2], 0, 0, 0};
+        }
+        ArmWorkspace alone(arm);
+        const ArmState one =
+            arm_forward(arm, std::span(commands).subspan(4 * k, 4), own, {.accuracy = 0}, alone);
+        ASSERT_TRUE(one.report.ok()) << robot.name << one.report.message.view();
+        EXPECT_LT((base.compose(one.tip).p - frames[1].p).norm(), 1e-7) << robot.name << k;
+        EXPECT_NEAR((state.platform.point(leg.platform_point) - frames[1].p).norm(), leg.strut, 1e-7);
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(one.tensions[i], state.tensions[4 * k + i], 1e-5);
+        across[0] += tip[0], across[1] += tip[1];
+      }
+      for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_NEAR(across[i], pushed.wrench[i] + robot.platform_mass * robot.gravity[i], 1e-8);
+      ArmOptions warm;
+      warm.from_last = true;
+      load.points = {{0, 0.033, {0.05, 0.02}}};
+      for (int k = 0; k < 4; ++k) {
+        load.points[0].place += 0.04;
+        const ArmLegsState a = arm_legs_forward(robot, commands, load, warm, work),
+                           b = arm_legs_forward(robot, commands, load, {}, other);
+        ASSERT_TRUE(a.report.ok() && b.report.ok()) << robot.name << a.report.message.view();
+        if (!a.report.message.empty()) continue;  // of a way that gave way
+        EXPECT_LT((a.platform.p - b.platform.p).norm(), discs > 0 ? 2e-6 : 2e-5) << robot.name << k;
+      }
+    }
+}
+
 TEST(PlanarArmLegs, RatesMatchDifferences) {
   for (const ArmLegs& robot : every_robot()) {
     const auto commands = mixed();
@@ -328,6 +391,14 @@ TEST(PlanarArmLegs, WhatLeavesThePlaneIsRefused) {
     load.wrench[k] = 1e-3;
     EXPECT_EQ(arm_legs_forward(robot, tensions(), load, {}, work).report.status, Status::bad_input);
   }
+  ArmLegsLoad out;
+  out.along = {0, 0, 0.1};
+  EXPECT_EQ(arm_legs_forward(robot, tensions(), out, {}, work).report.status, Status::bad_input);
+  out.along = {};
+  out.points = {{0, 0.1, {0, 0, 0.1}}};
+  EXPECT_EQ(arm_legs_forward(robot, tensions(), out, {}, work).report.status, Status::bad_input);
+  out.points = {{0, 0.1, {0, 0, 0, 0, 0, 0.1}}};
+  EXPECT_EQ(arm_legs_forward(robot, tensions(), out, {}, work).report.status, Status::unsupported);
   const ArmLegsLoad down{.gravity = std::array<double, 3>{0, 0, -9.81}};
   EXPECT_EQ(arm_legs_forward(robot, tensions(), down, {}, work).report.status, Status::bad_input);
   const SE3<double> above{{0, 0, 1e-3}, {}}, tilted{{0, 0, 0}, SO3<double>::exp({0.1, 0, 0})};

@@ -166,17 +166,90 @@ TEST(ArmLegsQuery, InverseStaticsAndTrackAgreeWithForward) {
   EXPECT_EQ(ends["reached"]["point"], 1);
 }
 
+TEST(ArmLegsQuery, LoadsOnLegsAreTakenByEveryQuestion) {
+  const Json loads = {{{"leg", 0}, {"place", "33 mm"}, {"wrench", {0.1, 0.05, 0, 0, 0, 0}}},
+                      {{"leg", 2}, {"place", 0.2}, {"wrench", {0, 0, -0.05, 0, 0, 0}}, {"following", false}}},
+             along = {0.1, -0.1, 0};
+  const auto with = [&](Json query) {
+    query["loads"] = loads;
+    query["distributed"] = along;
+    return query;
+  };
+  const Json forward = with({{"query", "forward"}, {"tensions", some_tensions}});
+  const std::vector<Json> first =
+      ask(tripod,
+          {forward,
+           with({{"query", "velocity"}, {"tensions", some_tensions}, {"want", {"velocity", "stiffness"}}}),
+           with({{"query", "shape"}, {"tensions", some_tensions}, {"samples", 3}}),
+           {{"query", "track"},
+            {"distributed", along},
+            {"points", {{{"tensions", some_tensions}}, {{"loads", loads}}}},
+            {"steps", 2}},
+           with({{"query", "forward"},
+                 {"tensions", some_tensions},
+                 {"until", {{"wrench", {0.01, 0, 0, 0, 0, 0}}, {"limit", 2}}}}),
+           {{"query", "forward"}, {"tensions", some_tensions}}});
+  const Json& there = first[0];
+  ASSERT_EQ(there["status"], "converged") << there;
+  const auto near = [](const Json& a, const Json& b, double by) {
+    for (std::size_t i = 0; i < b.size(); ++i) EXPECT_NEAR(a[i].get<double>(), b[i].get<double>(), by) << i;
+  };
+  for (const std::size_t k : {1U, 2U, 3U})
+    near(first[k]["pose"]["position"], there["pose"]["position"], 1e-6);
+  ASSERT_EQ(first[3]["rows"].size(), 4U) << first[3];
+  EXPECT_EQ(first[4]["why"], "limit") << first[4];
+  EXPECT_GT(
+      std::abs(first[5]["pose"]["position"][0].get<double>() - there["pose"]["position"][0].get<double>()),
+      1e-4);
+  double down = 0;  // what acts on legs their bases bear
+  for (const Json& leg : there["legs"]) down += leg["force"][2].get<double>();
+  EXPECT_NEAR(down, -0.02 * 9.81, 1e-9);
+  const std::vector<Json> then =
+      ask(tripod, {with({{"query", "statics"}, {"tensions", some_tensions}, {"pose", there["pose"]}}),
+                   with({{"query", "inverse"}, {"pose", there["pose"]}})});
+  ASSERT_EQ(then[0]["status"], "converged") << then[0];
+  near(then[0]["wrench"], {0, 0, 0, 0, 0, 0}, 1e-4);
+  ASSERT_EQ(then[1]["status"], "converged") << then[1];
+  near(then[1]["pose"]["position"], there["pose"]["position"], 1e-7);
+}
+
+TEST(ArmLegsQuery, BadLoadsOnLegsSayWhatIsWrong) {
+  const auto code = [](const Json& load) {
+    return status({{"query", "forward"}, {"tensions", some_tensions}, {"loads", Json::array({load})}});
+  };
+  const Json force = {0.1, 0, 0, 0, 0, 0};
+  EXPECT_EQ(code({{"leg", 1}, {"place", 0.1}, {"wrench", force}}), "converged");
+  EXPECT_EQ(code({{"place", 0.1}, {"wrench", force}}), "missing_key");
+  EXPECT_EQ(code({{"leg", 1}, {"wrench", force}}), "missing_key");
+  EXPECT_EQ(code({{"leg", 1}, {"place", 0.1}}), "missing_key");
+  EXPECT_EQ(code({{"leg", 3}, {"place", 0.1}, {"wrench", force}}), "out_of_range");
+  EXPECT_EQ(code({{"leg", -1}, {"place", 0.1}, {"wrench", force}}), "out_of_range");
+  EXPECT_EQ(code({{"leg", 0.5}, {"place", 0.1}, {"wrench", force}}), "not_whole");
+  EXPECT_EQ(code({{"leg", 1}, {"place", 0}, {"wrench", force}}), "out_of_range");
+  EXPECT_EQ(code({{"leg", 1}, {"place", 0.2001}, {"wrench", force}}), "out_of_range");
+  EXPECT_EQ(code({{"leg", 1}, {"place", 0.1}, {"wrench", {0.1, 0, 0}}}), "wrong_length");
+  EXPECT_EQ(code({{"leg", 1}, {"place", 0.1}, {"wrench", {0, 0, 0, 0, 0, 1e-3}}}), "unsupported");
+  EXPECT_EQ(code({{"leg", 1}, {"place", 0.1}, {"wrench", force}, {"following", true}}), "unsupported");
+  EXPECT_EQ(code({{"leg", 1}, {"place", 0.1}, {"wrench", force}, {"nonsense", 1}}), "unknown_key");
+  EXPECT_EQ(code(1), "wrong_type");
+  EXPECT_EQ(status({{"query", "forward"}, {"distributed", {0, 0}}}), "wrong_length");
+  const Json of_arm = ask(
+      "two-segment",
+      {{{"query", "forward"}, {"loads", Json::array({{{"leg", 0}, {"place", 0.1}, {"wrench", force}}})}}})[0];
+  EXPECT_EQ(of_arm["error"]["code"], "no_effect") << of_arm;
+}
+
 TEST(ArmLegsQuery, WhatIsNotBuiltIsNamed) {
   EXPECT_EQ(status({{"query", "inverse"}}), "missing_key");
   EXPECT_EQ(status({{"query", "statics"}}), "missing_key");
   EXPECT_EQ(status({{"query", "track"}}), "missing_key");
   EXPECT_EQ(status({{"query", "track"}, {"points", Json::array()}}), "empty_list");
-  EXPECT_EQ(
-      status({{"query", "track"}, {"points", {{{"loads", Json::array()}, {"tensions", Json::array()}}}}}),
-      "unsupported");
+  EXPECT_EQ(status({{"query", "track"},
+                    {"points", {{{"following", {1, 0, 0, 0, 0, 0}}, {"tensions", Json::array()}}}}}),
+            "unsupported");
   EXPECT_EQ(status({{"query", "inverse"}, {"position", {0, 0, 1}}}), "unreachable");
   EXPECT_EQ(status({{"query", "statics"}, {"position", {0, 0, 0.19}}, {"force_alone", false}}), "bad_input");
-  for (const char* key : {"following", "distributed", "loads"})
+  for (const char* key : {"following", "distributed_following"})
     EXPECT_EQ(status({{"query", "forward"}, {key, {1, 2, 3}}}), "unsupported") << key;
   EXPECT_EQ(status({{"query", "forward"}, {"balance", "projected"}}), "unsupported");
   EXPECT_EQ(status({{"query", "forward"}, {"nonsense", 1}}), "unknown_key");

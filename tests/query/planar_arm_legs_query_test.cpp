@@ -199,6 +199,18 @@ TEST(PlanarArmLegsQuery, BadFilesAndQuestionsSayWhatIsWrong) {
             "wrong_length");
   EXPECT_EQ(code({{"query", "forward"}, {"tensions", some_tensions}, {"gravity", {0, 0, -9.81}}}),
             "no_effect");
+  EXPECT_EQ(code({{"query", "forward"}, {"tensions", some_tensions}, {"distributed", {0, 0, 1}}}),
+            "no_effect");
+  const auto at_middle = [&](const Json& wrench) {
+    const Json load{{"leg", 2}, {"place", 0.1}, {"wrench", wrench}};
+    return code({{"query", "forward"},
+                 {"tensions", some_tensions},
+                 {"distributed", {0.1, 0, 0}},
+                 {"loads", Json::array({load})}});
+  };
+  EXPECT_EQ(at_middle({0.1, 0.1, 0}), "converged");
+  EXPECT_EQ(at_middle({0, 0, 0.01}), "unsupported");
+  EXPECT_EQ(at_middle({0, 0, 0, 0, 0, 0}), "wrong_length");
   EXPECT_EQ(code({{"query", "forward"}, {"tensions", some_tensions}, {"tilt", true}}), "no_effect");
   EXPECT_EQ(code({{"query", "inverse"}, {"direction", {0, 0, 1}}}), "not_available");
   EXPECT_EQ(code({{"query", "inverse"}, {"position", {0, 0, 0}}}), "wrong_length");

@@ -13,10 +13,19 @@
 
 namespace sinew::inline v1 {
 
-/// What acts on the platform beside its weight.
+/// A load at a place of a leg's backbone, which keeps its direction.
+struct ArmLegsPointLoad {
+  std::size_t leg = 0;             ///< from 0
+  double place = 0;                ///< from the leg's base along its backbone [m]
+  std::array<double, 6> wrench{};  ///< base axes; its moment has to be 0 [N, N m]
+};
+
+/// What acts on the robot beside its weight.
 struct ArmLegsLoad {
   std::array<double, 6> wrench{};  ///< on the platform, about its reference point, base axes [N, N m]
   std::optional<std::array<double, 3>> gravity = {};  ///< in place of the robot's [m/s²]
+  std::array<double, 3> along{};                      ///< on all backbones, base axes [N/m]
+  std::vector<ArmLegsPointLoad> points = {};          ///< on backbones
 };
 
 /// An equilibrium; tendons are those of leg 0 first. Of the best iterate where it is none.
@@ -28,7 +37,7 @@ struct ArmLegsState {
   std::vector<double> slack;                     ///< what a tendon is longer than its way [m]; 0: it is taut
   std::vector<std::array<double, 6>> tip_loads;  ///< of the platform on every tip, base axes [N, N m]
   bool stable = false;
-  double energy = 0;      ///< elastic, of weight, of the load's force and of tendons that stretch [J]
+  double energy = 0;      ///< elastic, of weight, of the load's forces and of tendons that stretch [J]
   double resolution = 0;  ///< by how much tips move with finer polynomials [m]; 0: not asked for
   double reached = 0;     ///< share of inputs and loads up to which there was an equilibrium that holds [1]
 };
@@ -36,7 +45,8 @@ struct ArmLegsState {
 /// The equilibrium into which the rest grows as inputs and loads do, together from nothing. With
 /// `options.from_last` the one into which that of the workspace changes, as what is held and loads do;
 /// where there is none, or the way to it gives way, that of the rest, and in the latter case `message` says
-/// so. `bad_input`: commands of another number, a tension below 0. `unsupported`: what is not built for legs.
+/// so. `bad_input`: commands of another number, a tension below 0, a load where there is no leg.
+/// `unsupported`: what is not built for legs, as moments on them.
 /// `stalled`: up to `reached` of inputs and loads there was an equilibrium that holds, and beyond none was
 /// found: it may have given way.
 /// @param commands of every tendon, those of leg 0 first, in it those of the first section first

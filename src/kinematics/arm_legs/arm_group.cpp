@@ -39,23 +39,63 @@ double yields(const Arm& arm, const ArmTendon& tendon) {
   return sum;
 }
 
+/// Shapes that polynomials do not tell one another: joints in other places.
+bool has_other_joints(const strain::RodModel& a, const strain::RodModel& b) {
+  return a.pieces.size() != b.pieces.size() &&
+         std::ranges::any_of(b.elements, [](const strain::Element& element) {
+           return element.points == 1 && !element.is_pivot;
+         });
+}
+
 }  // namespace
 
-ArmGroup::ArmGroup(const ArmLegs& robot, const ArmBasis& basis)
+LegsLoads mix(const LegsLoads& from, const LegsLoads& to, double share) {
+  if (share == 1) return to;
+  LegsLoads loads;
+  for (std::size_t i = 0; i < 3; ++i) {
+    loads.gravity[i] = std::lerp(from.gravity[i], to.gravity[i], share);
+    loads.along[i] = std::lerp(from.along[i], to.along[i], share);
+  }
+  const auto add = [&](const std::vector<ArmLegsPointLoad>& points, double part) {
+    if (part == 0) return;
+    for (ArmLegsPointLoad point : points) {
+      for (double& number : point.wrench) number *= part;
+      loads.points.push_back(point);
+    }
+  };
+  add(from.points, 1 - share);
+  add(to.points, share);
+  return loads;
+}
+
+LegsBreaks breaks_for(const ArmLegs& robot, const LegsLoads& loads) {
+  LegsBreaks breaks(robot.legs.size());
+  for (const ArmLegsPointLoad& point : loads.points)
+    if (std::ranges::any_of(point.wrench, [](double number) { return number != 0; }))
+      breaks[point.leg].push_back(point.place);
+  for (std::vector<double>& places : breaks) {
+    std::ranges::sort(places);
+    places.erase(std::ranges::unique(places).begin(), places.end());
+  }
+  return breaks;
+}
+
+ArmGroup::ArmGroup(const ArmLegs& robot, const ArmBasis& basis, const LegsBreaks& breaks)
     : robot_(&robot),
       platform_(Frame::from(robot.home)),
-      gravity_(robot.gravity) {
+      loads_{.gravity = robot.gravity} {
   legs_.reserve(robot.legs.size());
   for (const ArmLeg& own : robot.legs) {
+    const std::vector<double>& places = breaks[legs_.size()];
     Leg& leg = legs_.emplace_back(own);
     ArmBasis of_leg = basis;
     of_leg.in_plane = robot.is_planar;
     of_leg.turns_at_base = own.turns_at_base;
-    stand(leg, of_leg);
+    stand(leg, of_leg, places);
     if (own.strut > 0) {
       of_leg.strut = own.strut;
       of_leg.strut_angle = way_to_platform(leg);
-      stand(leg, of_leg);
+      stand(leg, of_leg, places);
     }
     strain::RodWork& work = rod(leg).work();
     leg.first_feed = feeds_;
@@ -82,10 +122,10 @@ ArmGroup::ArmGroup(const ArmLegs& robot, const ArmBasis& basis)
 }
 
 /// At rest.
-void ArmGroup::stand(Leg& leg, const ArmBasis& basis) {
+void ArmGroup::stand(Leg& leg, const ArmBasis& basis, const std::vector<double>& breaks) {
   ArmWorkspace::Impl& impl = leg.work.impl();
   impl.levels.clear();
-  impl.levels.push_back(std::make_unique<ArmRod>(make_rod(leg.own->arm, basis)));
+  impl.levels.push_back(std::make_unique<ArmRod>(make_rod(leg.own->arm, basis, breaks)));
   impl.level = 0;
   const Three3 turn = leg.own->base.R.matrix();
   strain::RodFrame& foot = rod(leg).work().frames.front();
@@ -170,20 +210,33 @@ void ArmGroup::hold_in_plane(AnySquare& by_twist, const std::array<double, 2>& u
 }
 
 void ArmGroup::set_problem(std::span<const TendonCommand> commands, const Wrench& wrench,
-                           const std::array<double, 3>& gravity) {
+                           const LegsLoads& loads) {
   for (Leg& leg : legs_)
     for (std::size_t i = 0; i < leg.tendons.size(); ++i)
       leg.tendons[i].command = commands[at(leg.first_feed) + i];
-  gravity_ = gravity;
+  loads_ = loads;
   wrench_ = wrench;
   set_share(share_);
 }
 
 void ArmGroup::set_share(double share) {
   share_ = share;
-  for (Leg& leg : legs_) {
-    ArmLoad load;
-    load.gravity = {share * gravity_[0], share * gravity_[1], share * gravity_[2]};
+  std::vector<ArmLoad> loads(legs_.size());
+  for (ArmLoad& load : loads) {
+    load.gravity.emplace();
+    for (std::size_t i = 0; i < 3; ++i) {
+      (*load.gravity)[i] = share * loads_.gravity[i];
+      load.along[i] = share * loads_.along[i];
+    }
+  }
+  for (const ArmLegsPointLoad& point : loads_.points) {
+    PointLoad& own = loads[point.leg].points.emplace_back();
+    own.place = point.place;
+    for (std::size_t i = 0; i < 3; ++i) own.wrench[i] = share * point.wrench[i];
+  }
+  for (std::size_t k = 0; k < legs_.size(); ++k) {
+    Leg& leg = legs_[k];
+    const ArmLoad& load = loads[k];
     set_loads(leg.own->arm, load, rod(leg).model(), rod(leg).work().loads);
     leg.tip = rod(leg).work().loads.back();
     for (Tendon& tendon : leg.tendons) {
@@ -201,7 +254,10 @@ void ArmGroup::carry_over_from(const ArmGroup& other) {
   for (std::size_t k = 0; k < legs_.size(); ++k) {
     const Leg& from = other.legs_[k];
     Leg& leg = legs_[k];
-    carry_over(rod(from).model(), rod(from).work(), rod(leg).model(), rod(leg).work().y);
+    if (has_other_joints(rod(from).model(), rod(leg).model()))
+      take_curvatures(arm_curvatures(from.own->arm, 64, from.work), rod(leg).model(), rod(leg).work().y);
+    else
+      carry_over(rod(from).model(), rod(from).work(), rod(leg).model(), rod(leg).work().y);
     for (std::size_t i = 0; i < leg.pivots().size(); ++i)
       rod(leg).work().y[at(leg.pivots()[i])] = rod(from).work().y[at(from.pivots()[i])];
     leg.force = from.force;
@@ -358,7 +414,7 @@ void ArmGroup::evaluate(Leg& leg) {
 
 double ArmGroup::evaluate(bool) {
   balance_ = share_ * wrench_;
-  for (int i = 0; i < 3; ++i) balance_[i] += share_ * robot_->platform_mass * gravity_[at(i)];
+  for (int i = 0; i < 3; ++i) balance_[i] += share_ * robot_->platform_mass * loads_.gravity[at(i)];
   limb_error_ = 0;
   double unit = 0;
   for (Leg& leg : legs_) {
@@ -719,7 +775,8 @@ double ArmGroup::energy() const {
 
 double ArmGroup::potential() const {
   double sum = 0;
-  for (int i = 0; i < 3; ++i) sum -= (wrench_[i] + robot_->platform_mass * gravity_[at(i)]) * platform_.p[i];
+  for (int i = 0; i < 3; ++i)
+    sum -= (wrench_[i] + robot_->platform_mass * loads_.gravity[at(i)]) * platform_.p[i];
   for (const Leg& leg : legs_) {
     const strain::RodWork& work = rod(leg).work();
     const strain::NodeLoad& tip = work.loads.back();

@@ -12,6 +12,19 @@
 
 namespace sinew::inline v1 {
 
+/// What acts on the legs, and the gravity of the whole.
+struct LegsLoads {
+  std::array<double, 3> gravity{}, along{};
+  std::vector<ArmLegsPointLoad> points = {};
+};
+/// At a share of the way from one to another.
+LegsLoads mix(const LegsLoads& from, const LegsLoads& to, double share);
+
+/// Places of each leg at which its rod has nodes, even ones and twice the same left out [m].
+using LegsBreaks = std::vector<std::vector<double>>;
+/// Where loads act that are not 0.
+LegsBreaks breaks_for(const ArmLegs& robot, const LegsLoads& loads);
+
 /// A feed is a tendon: those of leg 0 first. Its own states are strains, tensions where lengths are held, and
 /// what the platform exerts on the tip. Unlike other groups it allocates.
 class ArmGroup final : public LimbGroup<Spatial> {
@@ -20,10 +33,10 @@ class ArmGroup final : public LimbGroup<Spatial> {
   using Vector = Eigen::VectorXd;
 
   /// At rest: strains of the rest shape, the platform at home. The robot has to last as long.
-  ArmGroup(const ArmLegs& robot, const ArmBasis& basis);
+  /// @param breaks where loads may act on legs
+  ArmGroup(const ArmLegs& robot, const ArmBasis& basis, const LegsBreaks& breaks);
   /// What is held of all tendons, and the load of the whole.
-  void set_problem(std::span<const TendonCommand> commands, const Wrench& wrench,
-                   const std::array<double, 3>& gravity);
+  void set_problem(std::span<const TendonCommand> commands, const Wrench& wrench, const LegsLoads& loads);
   /// Only a share of inputs and loads acts, and only that share of the gaps between tips and platform at home
   /// is closed: at 0 the rest is an equilibrium, at 1 all holds.
   void set_share(double share);
@@ -100,11 +113,11 @@ class ArmGroup final : public LimbGroup<Spatial> {
   double held_as(int feed, TendonHeld held) const {
     return held == TendonHeld::tension ? tension(feed) : change(feed);
   }
-  const std::array<double, 3>& gravity() const { return gravity_; }
+  const LegsLoads& loads() const { return loads_; }
 
   /// Whether the wrench has a moment, which in base axes has no potential.
   bool has_potential() const { return wrench_.tail<3>().isZero(0); }
-  double potential() const;  ///< elastic, of weight, of the load's force and of tendons that stretch [J]
+  double potential() const;  ///< elastic, of weight, of the load's forces and of tendons that stretch [J]
   double tension(int feed) const;
   double change(int feed) const;      ///< of its end, > 0: paid out [m]
   double slack(int feed) const;       ///< what it is longer than its way [m]
@@ -132,7 +145,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
     Vec3<double> force = Vec3<double>::Zero();    ///< of the platform on the tip, base axes [N]
     Vec3<double> moment = Vec3<double>::Zero();   ///< the same, in the mount's axes [N m]
     Vec<double, 6> gap = Vec<double, 6>::Zero();  ///< of the rest at home: what closes as the share grows
-    strain::NodeLoad tip;                         ///< its weight
+    strain::NodeLoad tip;                         ///< its weight, and what of loads on the leg acts there
     Vec<double, 6> off = Vec<double, 6>::Zero();  ///< closure's error
     int taut = 0, closed = 3;                     ///< unknown forces: of tendons, of the closure
     /// Which of force and moment the closure's unknowns are: 0 to 2 and 3 to 5.
@@ -154,7 +167,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   Frame mount_of(const Leg& leg) const;
   Vec3<double> moment_of(const Leg& leg) const;  ///< base axes
   Wrench needs(const Leg& leg) const;
-  void stand(Leg& leg, const ArmBasis& basis);
+  void stand(Leg& leg, const ArmBasis& basis, const std::vector<double>& breaks);
   void aim(Leg& leg);
   double way_to_platform(const Leg& leg) const;
   void measure_closure(Leg& leg);
@@ -177,7 +190,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   std::vector<Leg> legs_;
   Frame platform_;
   Wrench wrench_ = Wrench::Zero();
-  std::array<double, 3> gravity_{};
+  LegsLoads loads_;
   double share_ = 0, radius_ = 0;
   int feeds_ = 0;
   double error_ = 0, limb_error_ = 0, planned_size_ = 0;

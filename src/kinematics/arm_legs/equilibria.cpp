@@ -27,9 +27,9 @@ LegsFound refine(const ArmLegs& robot, const LegsProblem& problem, const ArmOpti
   double resolution = 0;
   for (std::size_t next = 1; found.status == Status::converged && next < bases.size(); ++next) {
     ArmGroup& coarse = *impl.levels[next - 1];
-    impl.levels[next] = std::make_unique<ArmGroup>(robot, bases[next]);
+    impl.levels[next] = std::make_unique<ArmGroup>(robot, bases[next], impl.breaks);
     ArmGroup& fine = *impl.levels[next];
-    fine.set_problem(problem.commands, problem.wrench, problem.gravity);
+    fine.set_problem(problem.commands, problem.wrench, problem.loads);
     fine.carry_over_from(coarse);
     fine.set_share(1);
     LegsFound again = iterate_legs(fine, false, options, work.stop, 0);
@@ -155,10 +155,10 @@ const ArmLegsState& arm_legs_forward_from(const ArmLegs& robot, const ArmLegsSta
     return impl.state;
   }
   const LegsProblem problem(robot, commands, load);
-  prepare_levels(options, work);
-  impl.levels[0] = std::make_unique<ArmGroup>(robot, bases_of(options).front());
+  prepare_levels(options, breaks_for(robot, problem.loads), work);
+  impl.levels[0] = std::make_unique<ArmGroup>(robot, bases_of(options).front(), impl.breaks);
   ArmGroup& group = *impl.levels[0];
-  group.set_problem(problem.commands, problem.wrench, problem.gravity);
+  group.set_problem(problem.commands, problem.wrench, problem.loads);
   group.take(start);
   refine(robot, problem, options, work, iterate_legs(group, false, options, work.stop, 0));
   if (Report& report = impl.state.report; !report.is_solved() && report.message.empty())
@@ -189,10 +189,10 @@ std::vector<ArmLegsEquilibrium> arm_legs_equilibria(const ArmLegs& robot,
   const LegsProblem problem(robot, commands, load);
   Beginnings beginnings(robot, problem);
   for (int k = 1; k < starts && !is_refused && !work.stop.stop_requested(); ++k) {
-    impl.levels[0] = std::make_unique<ArmGroup>(robot, bases_of(each).front());
+    impl.levels[0] = std::make_unique<ArmGroup>(robot, bases_of(each).front(), impl.breaks);
     ArmGroup& group = *impl.levels[0];
     const LegsProblem disturbed = beginnings.disturbed();
-    group.set_problem(disturbed.commands, disturbed.wrench, disturbed.gravity);
+    group.set_problem(disturbed.commands, disturbed.wrench, disturbed.loads);
     if (k % 2 == 0) beginnings.put(group);
     double reached = 0;
     ArmOptions some = each;
@@ -200,7 +200,7 @@ std::vector<ArmLegsEquilibrium> arm_legs_equilibria(const ArmLegs& robot,
     const LegsFound there = grow_legs(group, some, work.stop, reached);
     // At once to the question, which may be where it does not hold; and evenly, where it does.
     const LimbState state = group.state();
-    group.set_problem(problem.commands, problem.wrench, problem.gravity);
+    group.set_problem(problem.commands, problem.wrench, problem.loads);
     group.set_share(1);
     if (const LegsFound at_once = iterate_legs(group, false, some, work.stop, 0);
         at_once.status == Status::converged) {
@@ -208,7 +208,7 @@ std::vector<ArmLegsEquilibrium> arm_legs_equilibria(const ArmLegs& robot,
       add();
     }
     if (there.status != Status::converged) continue;
-    group.set_problem(disturbed.commands, disturbed.wrench, disturbed.gravity);
+    group.set_problem(disturbed.commands, disturbed.wrench, disturbed.loads);
     group.restore(state);
     group.evaluate();
     const LegsFound evenly = walk_legs(group, problem, some, work.stop, reached);

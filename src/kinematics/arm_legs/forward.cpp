@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/at.hpp"
@@ -149,7 +150,7 @@ std::string_view words_for(Status status, bool is_held) {
 /// would be pressed on a straight way to it.
 LegsFound begin_at_rest(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
                         const StopToken& stop, double& reached) {
-  if (problem.held) group.set_problem(problem.commands, ArmGroup::Wrench::Zero(), problem.gravity);
+  if (problem.held) group.set_problem(problem.commands, ArmGroup::Wrench::Zero(), problem.loads);
   LegsFound found = grow_legs(group, options, stop, reached);
   if (!problem.held) return found;
   if (found.status != Status::converged) {
@@ -193,24 +194,72 @@ std::vector<ArmBasis> bases_of(const ArmOptions& options) {
   return bases;
 }
 
-bool prepare_levels(const ArmOptions& options, ArmLegsWorkspace& work) {
+namespace {
+
+bool is_for(const ArmOptions& options, const ArmLegsWorkspace::Impl& impl) {
+  return impl.model == options.model && impl.order == options.order && impl.elements == options.elements &&
+         impl.levels.size() == bases_of(options).size();
+}
+
+/// Whether loads may act at all of these places.
+bool has_all(const LegsBreaks& breaks, const LegsBreaks& wanted) {
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (!std::ranges::includes(breaks[k], wanted[k])) return false;
+  return true;
+}
+LegsBreaks together(const LegsBreaks& a, const LegsBreaks& b) {
+  LegsBreaks all(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) std::ranges::set_union(a[k], b[k], std::back_inserter(all[k]));
+  return all;
+}
+
+}  // namespace
+
+void prepare_levels(const ArmOptions& options, const LegsBreaks& breaks, ArmLegsWorkspace& work) {
   ArmLegsWorkspace::Impl& impl = work.impl();
-  const std::size_t count = bases_of(options).size();
-  if (impl.model == options.model && impl.order == options.order && impl.elements == options.elements &&
-      impl.levels.size() == count)
-    return true;
+  if (is_for(options, impl) && impl.breaks == breaks) return;
   impl.levels.clear();
-  impl.levels.resize(count);
+  impl.levels.resize(bases_of(options).size());
   impl.model = options.model, impl.order = options.order, impl.elements = options.elements;
-  return false;
+  impl.breaks = breaks;
 }
 
 LegsProblem::LegsProblem(const ArmLegs& robot, std::span<const TendonCommand> tendons,
                          const ArmLegsLoad& load)
     : commands(tendons.begin(), tendons.end()),
-      gravity(load.gravity.value_or(robot.gravity)) {
+      loads{load.gravity.value_or(robot.gravity), load.along, load.points} {
   std::copy(load.wrench.begin(), load.wrench.end(), wrench.begin());
 }
+
+namespace {
+
+/// Of loads on legs.
+Report loads_misfit(const ArmLegs& robot, const ArmLegsLoad& load) {
+  const auto bad = [](const std::string& words) {
+    return Report{Status::bad_input, 0, 0, FixedText<240>(words)};
+  };
+  for (std::size_t i = 0; i < load.points.size(); ++i) {
+    const ArmLegsPointLoad& point = load.points[i];
+    if (point.leg >= robot.legs.size())
+      return bad(fmt::format("load {} is on leg {}, the robot has {} legs, counted from 0", i, point.leg,
+                             robot.legs.size()));
+    const double length = robot.legs[point.leg].arm.length();
+    if (!(point.place > 0 && point.place <= length * (1 + 1e-12)))
+      return bad(
+          fmt::format("load {} is at {} m of leg {}, which is {} m long", i, point.place, point.leg, length));
+    if (!std::ranges::all_of(point.wrench, [](double x) { return std::isfinite(x); }))
+      return bad(fmt::format("load {} is not finite", i));
+    if (std::ranges::any_of(std::span(point.wrench).last(3), [](double x) { return x != 0; }))
+      return {
+          Status::unsupported, 0, 0,
+          FixedText<240>(fmt::format("load {} has a moment, which has no potential, by which legs balance "
+                                     "in this version: give forces alone",
+                                     i))};
+  }
+  return {Status::converged, 0, 0, {}};
+}
+
+}  // namespace
 
 Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands, const ArmLegsLoad& load,
                    const ArmOptions& options, const ArmLegsWorkspace& work) {
@@ -227,12 +276,15 @@ Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands
                              -commands[i].value));
   }
   const auto finite = [](double x) { return std::isfinite(x); };
-  if (!std::ranges::all_of(load.wrench, finite) ||
+  if (!std::ranges::all_of(load.wrench, finite) || !std::ranges::all_of(load.along, finite) ||
       (load.gravity && !std::ranges::all_of(*load.gravity, finite)))
     return bad("a load is not finite");
+  if (const Report misfit = loads_misfit(robot, load); !misfit.ok()) return misfit;
   if (robot.is_planar) {
     const auto& gravity = load.gravity.value_or(robot.gravity);
-    if (load.wrench[2] != 0 || load.wrench[3] != 0 || load.wrench[4] != 0 || gravity[2] != 0)
+    if (load.wrench[2] != 0 || load.wrench[3] != 0 || load.wrench[4] != 0 || gravity[2] != 0 ||
+        load.along[2] != 0 ||
+        std::ranges::any_of(load.points, [](const auto& point) { return point.wrench[2] != 0; }))
       return bad("a load acts out of the plane, in which alone the robot moves: leave that part of it out");
   }
   if (options.balance != ArmBalance::energy)
@@ -277,16 +329,14 @@ LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, const ArmOption
   for (std::size_t i = 0; i < problem.commands.size(); ++i)
     first.push_back(group.held_as(static_cast<int>(i), problem.commands[i].held));
   const ArmGroup::Wrench wrench = group.wrench();
-  const std::array<double, 3> gravity = group.gravity();
+  const LegsLoads loads = group.loads();
   const ArmGroup::Frame from = group.platform();
   const Vec<double, 6> way = problem.held ? twist_between(from, *problem.held) : Vec<double, 6>::Zero();
   const auto put = [&](double share) {
     for (std::size_t i = 0; i < first.size(); ++i)
       on_the_way.commands[i].value = std::lerp(first[i], problem.commands[i].value, share);
-    for (std::size_t i = 0; i < 3; ++i)
-      on_the_way.gravity[i] = std::lerp(gravity[i], problem.gravity[i], share);
     const ArmGroup::Wrench acts = (1 - share) * wrench + share * problem.wrench;
-    group.set_problem(on_the_way.commands, acts, on_the_way.gravity);
+    group.set_problem(on_the_way.commands, acts, mix(loads, problem.loads, share));
     if (problem.held) group.set_platform(between(from, way, share));
   };
   reached = 0;
@@ -312,7 +362,7 @@ Report LegsWalk::go(const LegsProblem& problem, bool from_last) {
   if (found.status == Status::converged) {
     before_ = problem;
   } else {
-    group.set_problem(before_->commands, before_->wrench, before_->gravity);
+    group.set_problem(before_->commands, before_->wrench, before_->loads);
     group.restore(state_);
     group.evaluate();
   }
@@ -323,15 +373,19 @@ Report LegsWalk::go(const LegsProblem& problem, bool from_last) {
 }
 
 void LegsWalk::keep() {
-  if (before_) kept_.emplace(Kept{*before_, work_.impl().group().state(), work_.impl().level});
+  ArmLegsWorkspace::Impl& impl = work_.impl();
+  if (before_) kept_.emplace(Kept{*before_, impl.group().state(), impl.level, impl.breaks});
 }
 
 void LegsWalk::bring_back() {
   if (!kept_) return;
   ArmLegsWorkspace::Impl& impl = work_.impl();
   impl.level = kept_->level;
+  prepare_levels(options_, kept_->breaks, work_);
+  if (auto& level = impl.levels[at(impl.level)]; !level)
+    level = std::make_unique<ArmGroup>(robot_, bases_of(options_)[at(impl.level)], impl.breaks);
   ArmGroup& group = impl.group();
-  group.set_problem(kept_->problem.commands, kept_->problem.wrench, kept_->problem.gravity);
+  group.set_problem(kept_->problem.commands, kept_->problem.wrench, kept_->problem.loads);
   group.restore(kept_->state);
   const double residual = group.evaluate();
   before_ = kept_->problem;
@@ -347,16 +401,25 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
   ArmLegsWorkspace::Impl& impl = work.impl();
   const bool is_held = problem.held.has_value();
   const auto bases = bases_of(options);
-  const bool is_same = prepare_levels(options, work),
-             goes_on = options.from_last && is_same && impl.has_last();
+  const bool goes_on = options.from_last && is_for(options, impl) && impl.has_last();
+  // Rods have nodes where loads act: groups are made anew where others are to. Loads that go need theirs on
+  // the way, and no longer.
+  const LegsBreaks breaks = breaks_for(robot, problem.loads);
+  std::unique_ptr<ArmGroup> parted;
+  if (!goes_on) {
+    prepare_levels(options, breaks, work);
+  } else if (!has_all(impl.breaks, breaks)) {
+    parted = std::move(impl.levels[at(impl.level)]);
+    prepare_levels(options, together(breaks, breaks_for(robot, parted->loads())), work);
+  }
   ArmLegsState& state = impl.state;
   state = {};
   const auto put = [&](ArmGroup& group) {
-    group.set_problem(problem.commands, problem.wrench, problem.gravity);
+    group.set_problem(problem.commands, problem.wrench, problem.loads);
   };
   const auto ready = [&](std::size_t level) -> ArmGroup& {
     // Anew: the rest of a group is where its shapes are those at rest.
-    impl.levels[level] = std::make_unique<ArmGroup>(robot, bases[level]);
+    impl.levels[level] = std::make_unique<ArmGroup>(robot, bases[level], impl.breaks);
     put(*impl.levels[level]);
     return *impl.levels[level];
   };
@@ -367,13 +430,16 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
   if (goes_on) {
     // One level coarser: the next one then says how far both are off.
     level = at(std::max(0, impl.level - 1));
+    const ArmGroup& last = parted ? *parted : impl.group();
+    if (!impl.levels[level])
+      impl.levels[level] = std::make_unique<ArmGroup>(robot, bases[level], impl.breaks);
     group = impl.levels[level].get();
-    if (const ArmGroup& last = impl.group(); group != &last) {
+    if (group != &last) {
       std::vector<TendonCommand> commands = problem.commands;
       for (std::size_t i = 0; i < commands.size(); ++i)
         commands[i].value = last.held_as(static_cast<int>(i), commands[i].held);
       group->carry_over_from(last);
-      group->set_problem(commands, last.wrench(), last.gravity());
+      group->set_problem(commands, last.wrench(), last.loads());
       group->set_share(1);
     }
     found = walk_legs(*group, problem, options, work.stop, state.reached);

@@ -16,6 +16,7 @@ struct ArmLegsWorkspace::Impl {
   std::shared_ptr<const char> robot;
   ArmModel model = ArmModel::subsegment_rod;
   int order = -2, elements = 0;
+  LegsBreaks breaks;  ///< of all levels
   std::vector<std::unique_ptr<ArmGroup>> levels;
   int level = -1;  ///< of the last equilibrium; −1: none was
   ArmLegsState state;
@@ -29,7 +30,7 @@ struct ArmLegsWorkspace::Impl {
 struct LegsProblem {
   std::vector<TendonCommand> commands;
   ArmGroup::Wrench wrench = ArmGroup::Wrench::Zero();
-  std::array<double, 3> gravity{};
+  LegsLoads loads;
   std::optional<ArmGroup::Frame> held = {};  ///< the platform there, whatever wrench that takes
 
   LegsProblem(const ArmLegs& robot, std::span<const TendonCommand> tendons, const ArmLegsLoad& load);
@@ -56,8 +57,8 @@ LegsFound grow_legs(ArmGroup& group, const ArmOptions& options, const StopToken&
 std::vector<ArmBasis> bases_of(const ArmOptions& options);
 /// By how much polynomials that are finer move the platform, or would if it were free [m].
 double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_held);
-/// Makes room for these options; false where the workspace had groups of others.
-bool prepare_levels(const ArmOptions& options, ArmLegsWorkspace& work);
+/// Makes room for groups of these options and breaks; those of others go.
+void prepare_levels(const ArmOptions& options, const LegsBreaks& breaks, ArmLegsWorkspace& work);
 
 /// How a search for an equilibrium may end.
 enum class LegsEnd {
@@ -102,6 +103,7 @@ class LegsWalk {
     LegsProblem problem;
     LimbState state;
     int level;
+    LegsBreaks breaks;
   };
   std::optional<Kept> kept_ = {};
 };

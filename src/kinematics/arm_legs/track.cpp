@@ -9,10 +9,6 @@
 namespace sinew::inline v1 {
 namespace {
 
-std::array<double, 3> mix(const std::array<double, 3>& a, const std::array<double, 3>& b, double share) {
-  return {std::lerp(a[0], b[0], share), std::lerp(a[1], b[1], share), std::lerp(a[2], b[2], share)};
-}
-
 /// Of a tendon that does not pull, held as the step holds it.
 std::vector<TendonCommand> unpulled(const ArmLegs& robot, const ArmLegsStep& step) {
   std::vector<TendonCommand> commands(robot.tendons());
@@ -27,7 +23,7 @@ class WayTo {
   WayTo(const ArmLegs& robot, const ArmLegsStep& step, const ArmGroup& group)
       : robot_(robot),
         step_(step),
-        gravity_(group.gravity()),
+        loads_(group.loads()),
         platform_(group.platform()) {
     const ArmGroup::Wrench wrench = group.wrench();
     std::copy(wrench.begin(), wrench.end(), wrench_.begin());
@@ -38,7 +34,11 @@ class WayTo {
   ArmLegsLoad load(double share) const {
     ArmLegsLoad load;
     for (std::size_t i = 0; i < 6; ++i) load.wrench[i] = std::lerp(wrench_[i], step_.load.wrench[i], share);
-    load.gravity = mix(gravity_, step_.load.gravity.value_or(robot_.gravity), share);
+    const LegsLoads to = LegsProblem(robot_, {}, step_.load).loads;
+    LegsLoads at_share = mix(loads_, to, share);
+    load.gravity = at_share.gravity;
+    load.along = at_share.along;
+    load.points = std::move(at_share.points);
     return load;
   }
   std::vector<TendonCommand> commands(double share) const {
@@ -56,7 +56,7 @@ class WayTo {
  private:
   const ArmLegs& robot_;
   const ArmLegsStep& step_;
-  std::array<double, 3> gravity_;
+  LegsLoads loads_;
   SE3<double> platform_;
   std::array<double, 6> wrench_{};
   std::vector<double> held_;

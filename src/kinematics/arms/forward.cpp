@@ -66,6 +66,7 @@ void set_loads(const Arm& arm, const ArmLoad& load, const RodModel& model, std::
   add_wrench(loads.back(), load.wrench, false);
   add_wrench(loads.back(), load.following, true);
   for (const PointLoad& point : load.points) {
+    if (point.place <= 1e-9 * arm.sections.front().length) continue;  // no node is there: the base bears it
     std::size_t nearest = 1;
     for (std::size_t k = 2; k < model.places.size(); ++k)
       if (std::abs(model.places[k] - point.place) < std::abs(model.places[nearest] - point.place))

@@ -28,12 +28,12 @@ std::vector<std::size_t> tendon_counts_of(const ArmLegs& robot) {
   return counts;
 }
 
-constexpr std::string_view not_yet = "is not available of legs of sections in this version; leave it out";
-constexpr Lack lacking[] = {{"following", not_yet},
-                            {"distributed", not_yet},
-                            {"distributed_following", not_yet},
-                            {"loads", not_yet},
-                            {"balance", not_yet}};
+constexpr std::string_view not_yet = "is not available of legs of sections in this version; leave it out",
+                           no_potential =
+                               "turns with the robot and so has no potential, by which legs of sections "
+                               "balance in this version; give loads that keep their direction";
+constexpr Lack lacking[] = {
+    {"following", no_potential}, {"distributed_following", no_potential}, {"balance", not_yet}};
 
 /// Numbers of a robot in space, or of one in the plane those that it has.
 /// @{
@@ -158,11 +158,44 @@ ArmOptions read_legs_options(Context& context) {
   return options;
 }
 
+/// @param z of a force of a robot in the plane
+void check_plane(const ArmLegs& robot, const Reader& list, double z) {
+  if (robot.is_planar && z != 0)
+    list.fail("no_effect",
+              "its third number has no effect: it acts out of the plane in which alone the robot moves; "
+              "write 0");
+}
+
+ArmLegsPointLoad read_legs_point(const ArmLegs& robot, Reader& load) {
+  ArmLegsPointLoad point;
+  const int last = static_cast<int>(robot.legs.size()) - 1,
+            leg = load.required("leg", "on which the load acts, from 0").integer(Range::between(0, last));
+  point.leg = static_cast<std::size_t>(std::clamp(leg, 0, last));
+  point.place = read_place_along(load, robot.legs[point.leg].arm.length());
+  const Reader wrench = load.required("wrench", "force there, and a moment of 0");
+  point.wrench = read_wrench_of(robot, wrench);
+  if (std::ranges::any_of(std::span(point.wrench).last(3), [](double moment) { return moment != 0; }))
+    wrench.fail("not_available",
+                "its moment has no potential, by which legs of sections balance in this version; write 0");
+  if (const auto following = load.optional("following"); following && following->boolean())
+    following->fail("not_available", no_potential);
+  load.close();
+  return point;
+}
+
 /// @param load what holds where they are not given
 ArmLegsLoad read_legs_load(const ArmLegs& robot, Reader& place, ArmLegsLoad load = {}) {
   if (const auto wrench = place.optional("wrench")) load.wrench = read_wrench_of(robot, *wrench);
   if (const auto gravity = place.optional("gravity"))
     load.gravity = read_gravity_of(*gravity, robot.is_planar);
+  if (const auto along = place.optional("distributed")) {
+    load.along = read_along(*along);
+    check_plane(robot, *along, load.along[2]);
+  }
+  if (const auto points = place.optional("loads")) {
+    load.points.clear();
+    for (Reader& point : points->items()) load.points.push_back(read_legs_point(robot, point));
+  }
   return load;
 }
 
@@ -349,9 +382,8 @@ std::vector<ArmLegsStep> read_legs_points(Context& context, const ArmLegs& robot
     } else if (!has_inputs && path.empty()) {
       point.required("tensions", "of the first point; or changes, or a pose");
     }
-    for (const char* key : {"following", "distributed", "distributed_following", "loads"})
-      if (const auto asked = point.optional(key))
-        asked->fail("not_available", "is not available of legs of sections in this version; leave it out");
+    for (const char* key : {"following", "distributed_following"})
+      if (const auto asked = point.optional(key)) asked->fail("not_available", no_potential);
     step.load = read_legs_load(robot, point, load);
     point.close();
     path.push_back(std::move(step));

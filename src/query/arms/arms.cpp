@@ -96,24 +96,31 @@ std::array<double, 6> read_arm_wrench(const Reader& list) {
 
 PointLoad read_point_load(Reader& load, double length) {
   PointLoad point;
-  point.place =
-      load.required("place", "of the load, from the base along the backbone")
-          .quantity(Dimension::length, {.low = 0, .high = length * (1 + 1e-12), .low_excluded = true});
+  point.place = read_place_along(load, length);
   point.wrench = read_arm_wrench(load.required("wrench", "force and moment there"));
   if (const auto following = load.optional("following")) point.following = following->boolean();
+  if (const auto leg = load.optional("leg"))
+    leg->fail("no_effect", "is of platforms on legs of sections; an arm has one backbone: leave it out");
   load.close();
   return point;
 }
 
 }  // namespace
 
+std::array<double, 3> read_along(const Reader& along) {
+  return along.array<3>(Dimension::number, Range{.low = -1e9, .high = 1e9});
+}
+
+double read_place_along(Reader& load, double length) {
+  return load.required("place", "of the load, from the base along the backbone")
+      .quantity(Dimension::length, {.low = 0, .high = length * (1 + 1e-12), .low_excluded = true});
+}
+
 ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load) {
   if (const auto wrench = place.optional("wrench")) load.wrench = read_arm_wrench(*wrench);
   if (const auto following = place.optional("following")) load.following = read_arm_wrench(*following);
-  const Range any{.low = -1e9, .high = 1e9};
-  if (const auto along = place.optional("distributed")) load.along = along->array<3>(Dimension::number, any);
-  if (const auto along = place.optional("distributed_following"))
-    load.following_along = along->array<3>(Dimension::number, any);
+  if (const auto along = place.optional("distributed")) load.along = read_along(*along);
+  if (const auto along = place.optional("distributed_following")) load.following_along = read_along(*along);
   if (const auto points = place.optional("loads")) {
     load.points.clear();
     for (Reader& point : points->items()) load.points.push_back(read_point_load(point, arm.length()));

@@ -38,6 +38,10 @@ std::vector<std::size_t> tendons_by_section(const Arm& arm);
 /// Loads of a question, or of a point of a path.
 /// @param load what holds where they are not given
 ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load = {});
+/// `distributed`, or `distributed_following`: a force along a backbone [N/m].
+std::array<double, 3> read_along(const Reader& along);
+/// Where a load acts on a backbone of this length [m].
+double read_place_along(Reader& load, double length);
 /// `model`, `order`, `elements`, `accuracy` and the bound on iterations.
 ArmOptions read_arm_options(Question& context);
 /// `start`: `last`, where the workspace is.
