@@ -75,7 +75,7 @@ LegsBreaks breaks_for(const ArmLegs& robot, const LegsLoads& loads) {
       breaks[point.leg].push_back(point.place);
   for (std::vector<double>& places : breaks) {
     std::ranges::sort(places);
-    places.erase(std::ranges::unique(places).begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
   }
   return breaks;
 }

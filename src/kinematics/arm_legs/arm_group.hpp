@@ -20,7 +20,7 @@ struct LegsLoads {
 /// At a share of the way from one to another.
 LegsLoads mix(const LegsLoads& from, const LegsLoads& to, double share);
 
-/// Places of each leg at which its rod has nodes, even ones and twice the same left out [m].
+/// Places of each leg where its rod has nodes beside its own, in order and none twice [m].
 using LegsBreaks = std::vector<std::vector<double>>;
 /// Where loads act that are not 0.
 LegsBreaks breaks_for(const ArmLegs& robot, const LegsLoads& loads);

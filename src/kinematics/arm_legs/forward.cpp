@@ -250,11 +250,10 @@ Report loads_misfit(const ArmLegs& robot, const ArmLegsLoad& load) {
     if (!std::ranges::all_of(point.wrench, [](double x) { return std::isfinite(x); }))
       return bad(fmt::format("load {} is not finite", i));
     if (std::ranges::any_of(std::span(point.wrench).last(3), [](double x) { return x != 0; }))
-      return {
-          Status::unsupported, 0, 0,
-          FixedText<240>(fmt::format("load {} has a moment, which has no potential, by which legs balance "
-                                     "in this version: give forces alone",
-                                     i))};
+      return {Status::unsupported, 0, 0,
+              FixedText<240>(
+                  fmt::format("load {} has a moment{}: give forces alone in this version", i,
+                              robot.is_planar ? "" : ", which has no potential, by which legs balance"))};
   }
   return {Status::converged, 0, 0, {}};
 }

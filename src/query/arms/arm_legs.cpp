@@ -175,8 +175,11 @@ ArmLegsPointLoad read_legs_point(const ArmLegs& robot, Reader& load) {
   const Reader wrench = load.required("wrench", "force there, and a moment of 0");
   point.wrench = read_wrench_of(robot, wrench);
   if (std::ranges::any_of(std::span(point.wrench).last(3), [](double moment) { return moment != 0; }))
-    wrench.fail("not_available",
-                "its moment has no potential, by which legs of sections balance in this version; write 0");
+    wrench.fail(
+        "not_available",
+        robot.is_planar
+            ? "moments on legs of sections are not available in this version; write 0"
+            : "its moment has no potential, by which legs of sections balance in this version; write 0");
   if (const auto following = load.optional("following"); following && following->boolean())
     following->fail("not_available", no_potential);
   load.close();
