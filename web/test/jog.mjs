@@ -110,8 +110,12 @@ export async function jog_camera(browser, url) {
   assert.ok(up[0] > 0.9 * 0.1 * degree && Math.abs(up[1]) < 0.1 * up[0], `up: ${up}`);
   assert.ok(right[1] > 0.9 * 0.1 * degree && Math.abs(right[0]) < 0.1 * right[1], `right: ${right}`);
   await shot(page, 'jog-camera');
-  const stick = await by(() => page.evaluate(() => { window.__pad.axes = [0, 0, 0, -1]; }));
-  await page.evaluate(() => { window.__pad.axes = [0, 0, 0, 0]; });
+  const stick = await by(async () => {  // it pushes as long as it is held
+    const [from] = await target(page, 4);
+    await page.evaluate(() => { window.__pad.axes = [0, 0, 0, -1]; });
+    await until(page, (before) => window.__sinew.operate.frame.sections[4].target[0] !== before, from);
+    await page.evaluate(() => { window.__pad.axes = [0, 0, 0, 0]; });
+  });
   assert.ok(stick[0] > 0 && Math.abs(stick[1]) < 0.1 * stick[0], `a stick pushes as the pad does: ${stick}`);
   await done();
 }
