@@ -125,7 +125,7 @@ TEST(JobHttp, AStudyTellsHowFarItIsAndGivesItsTable) {
   Listener listener(desk.port, job);
   listener.listen();
   EXPECT_EQ(listener.type, "text/event-stream");  // not compressed, though asked for
-  ASSERT_GE(listener.events.size(), 1U);  // on a busy machine it has ended before this one listens
+  ASSERT_GE(listener.events.size(), 1U);          // on a busy machine it has ended before this one listens
   EXPECT_EQ(listener.events.back().name, "done");
   for (std::size_t i = 0; i + 1 < listener.events.size(); ++i) {
     EXPECT_EQ(listener.events[i].name, "progress");
