@@ -11,6 +11,7 @@
 #include "io/read_pose.hpp"
 #include "io/reader.hpp"
 #include "io/serial_file.hpp"
+#include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
 namespace {

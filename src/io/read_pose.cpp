@@ -1,7 +1,5 @@
 #include "io/read_pose.hpp"
 
-#include <cmath>
-
 #include "io/reader.hpp"
 #include "math/tilt.hpp"
 
@@ -69,11 +67,6 @@ std::array<double, 3> read_gravity_of(const Reader& gravity, bool is_planar) {
                  "its third number has no effect: it acts out of the plane in which alone the robot moves; "
                  "write 0");
   return {g.x(), g.y(), g.z()};
-}
-
-SpatialPose in_space(const PlanarPose& pose) {
-  return {.position = {pose.x, pose.y, 0},
-          .quaternion = {std::cos(pose.phi / 2), 0, 0, std::sin(pose.phi / 2)}};
 }
 
 }  // namespace sinew::inline v1

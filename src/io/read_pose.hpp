@@ -28,7 +28,4 @@ SINEW_API Vec3<double> read_gravity(const Reader& gravity);
 /// The same of a robot that may be one in the plane, where gravity acts in it.
 SINEW_API std::array<double, 3> read_gravity_of(const Reader& gravity, bool is_planar);
 
-/// In the plane of x and y.
-SpatialPose in_space(const PlanarPose& pose);
-
 }  // namespace sinew::inline v1

@@ -12,6 +12,7 @@
 #include "leg/space.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/sampler.hpp"
+#include "robot/pose.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/kinematics/arm_legs.hpp"
 
