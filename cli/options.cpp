@@ -205,15 +205,14 @@ const std::vector<FieldOption>& field_options() {
 
 }  // namespace
 
-std::vector<std::string_view> options_of(std::string_view query,
-                                         std::initializer_list<std::string_view> without,
+std::vector<std::string_view> options_of(Ask ask, std::initializer_list<std::string_view> without,
                                          std::initializer_list<std::string_view> with) {
   const auto is_spelled = [&](std::string_view name) {
     return name != "query" && name != "id" && std::ranges::find(without, name) == without.end();
   };
   std::vector<std::string_view> names;
   for (const FieldOption& one : field_options())
-    if (one.field->uses.of(query) != 0 && is_spelled(one.name)) names.push_back(one.name);
+    if (one.field->uses.of(ask) != 0 && is_spelled(one.name)) names.push_back(one.name);
   for (const std::string_view name : with)
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   return names;

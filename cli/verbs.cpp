@@ -12,7 +12,7 @@ const std::array table{
         "forward",
         "ROBOT",
         "pose of the platform from the inputs",
-        options_of("forward", {"along", "samples", "tilt", "trace"}, {"limit", "json", "quiet", "help"}),
+        options_of(Ask::forward, {"along", "samples", "tilt", "trace"}, {"limit", "json", "quiet", "help"}),
         {"inputs", "configuration", "changes", "tensions"},
         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
         "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"
@@ -32,7 +32,7 @@ const std::array table{
         "inverse",
         "ROBOT",
         "inputs from the pose of the platform",
-        options_of("inverse", {"along", "limit", "samples", "tilt"}, {"json", "quiet", "help"}),
+        options_of(Ask::inverse, {"along", "limit", "samples", "tilt"}, {"json", "quiet", "help"}),
         {"pose", "independent", "position", "direction"},
         "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
         "the "
@@ -51,7 +51,7 @@ const std::array table{
     Verb{"statics",
          "ROBOT",
          "a tendon-driven robot under a load, its links pseudo-rigid chains; the load on rods, sensed",
-         options_of("statics", {"inverse", "samples", "tilt"}, {"limit", "json", "quiet", "help"}),
+         options_of(Ask::statics, {"inverse", "samples", "tilt"}, {"limit", "json", "quiet", "help"}),
          {"set-at", "tensions", "lengths", "pose", "axial-forces", "changes"},
          "Tendons are set at a pose, or their tensions or lengths given; or --pose is held under the load, "
          "and "
@@ -69,7 +69,7 @@ const std::array table{
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
-         options_of("velocity", {"along", "limit", "samples", "tilt"}, {"json", "quiet", "help"}),
+         options_of(Ask::velocity, {"along", "limit", "samples", "tilt"}, {"json", "quiet", "help"}),
          {"pose", "independent", "inputs", "configuration", "changes", "tensions"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
@@ -83,7 +83,7 @@ const std::array table{
     Verb{"diagram",
          "ROBOT",
          "what the tendons of one section of a serial robot leave it free to do",
-         options_of("diagram", {"tilt", "max-iterations", "theta-is"},
+         options_of(Ask::diagram, {"tilt", "max-iterations", "theta-is"},
                     {"output", "width", "font", "force", "json", "quiet", "help"}),
          {"changes"},
          "Exact: the tendons agree on one bend. Indeterminate: some are slack, the section can be anywhere "
@@ -99,7 +99,7 @@ const std::array table{
         "track",
         "ROBOT",
         "inputs along a path of the platform; an arm along a path of tensions",
-        options_of("track",
+        options_of(Ask::track,
                    {"inputs", "pose", "independent", "set-at", "tensions", "lengths", "range", "backward",
                     "branches"},
                    {"output", "json", "quiet", "help"}),
@@ -121,7 +121,7 @@ const std::array table{
         "ROBOT",
         "the curve of equilibria of a loaded robot along inputs, a load or a pose, through folds",
         options_of(
-            "track",
+            Ask::track,
             {"from", "poses", "angles", "objective", "rk4-steps", "branches", "points", "steps", "following",
              "distributed", "distributed-following", "loads", "order", "elements", "accuracy"},
             {"hold", "to-inputs", "to-tensions", "to-lengths", "to-wrench", "all", "output", "width", "font",

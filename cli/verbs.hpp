@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "query/kinds.hpp"
+
 namespace sinew::cli {
 
 /// A command line taken apart: texts as they were written.
@@ -52,8 +54,7 @@ const Option& option(std::string_view name);
 std::span<const Option> all_options();
 /// Options that are fields of a kind of question, and others.
 /// @param without fields that the verb does not take, or spells otherwise
-std::vector<std::string_view> options_of(std::string_view query,
-                                         std::initializer_list<std::string_view> without,
+std::vector<std::string_view> options_of(Ask ask, std::initializer_list<std::string_view> without,
                                          std::initializer_list<std::string_view> with);
 
 /// @name Texts

@@ -37,11 +37,12 @@ Node texts(std::span<const std::string_view> words) {
 /// Who takes the field, in each kind of question that has it.
 Node uses_of(const Field& field) {
   std::vector<Member> kinds;
-  for (const std::string_view kind : question_kinds()) {
+  for (const Ask ask : every_ask) {
     std::vector<Node> takers;
     for (const auto& [bit, name] : mechanics)
-      if ((field.uses.of(kind) & bit) != 0) takers.push_back(make_node(name));
-    if (!takers.empty()) kinds.push_back({.key = std::string(kind), .value = list_of(std::move(takers))});
+      if ((field.uses.of(ask) & bit) != 0) takers.push_back(make_node(name));
+    if (!takers.empty())
+      kinds.push_back({.key = std::string(word_of(ask)), .value = list_of(std::move(takers))});
   }
   return map_of(std::move(kinds));
 }
@@ -49,12 +50,12 @@ Node uses_of(const Field& field) {
 std::string kinds_of(const Field& field) {
   std::string kinds;
   std::size_t count = 0;
-  for (const std::string_view kind : question_kinds())
-    if (field.uses.of(kind) != 0) {
-      kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", kind);
+  for (const Ask ask : every_ask)
+    if (field.uses.of(ask) != 0) {
+      kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", word_of(ask));
       ++count;
     }
-  return count == question_kinds().size() ? "all" : kinds;
+  return count == every_ask.size() ? "all" : kinds;
 }
 
 }  // namespace

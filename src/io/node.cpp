@@ -156,11 +156,11 @@ const Node* at(const Node& root, std::string_view path) {
 Node* at(Node& root, std::string_view path) { return const_cast<Node*>(at(std::as_const(root), path)); }
 
 std::string joined(std::string_view path, std::string_view key) {
-  std::string whole;
-  whole.reserve(path.size() + 1 + key.size());
-  whole = path;
-  if (!path.empty()) whole += '.';
-  return whole += key;
+  if (path.empty()) return std::string(key);
+  std::string whole(path.size() + 1 + key.size(), '.');
+  path.copy(whole.data(), path.size());
+  key.copy(whole.data() + path.size() + 1, key.size());
+  return whole;
 }
 
 std::string joined(std::string_view path, std::size_t index) {

@@ -2,8 +2,10 @@
 /// JSON as programs write it, read in one pass: most questions are. What is odd in any way (escapes, text
 /// beyond ASCII, numbers of many digits, slips) is left to the parser that has messages for it.
 #pragma once
+#include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -99,40 +101,56 @@ class PlainJson {
     return true;
   }
 
-  std::size_t digits() {
+  /// @param value the digits so far, which these go on
+  /// @return how many these are
+  std::size_t digits(std::uint64_t& value) {
     const char* begin = at_;
-    while (at_ != end_ && *at_ >= '0' && *at_ <= '9') ++at_;
+    while (at_ != end_ && *at_ >= '0' && *at_ <= '9')
+      value = 10 * value + static_cast<unsigned>(*at_++ - '0');
     return static_cast<std::size_t>(at_ - begin);
   }
 
   /// Whole numbers of up to 15 digits, which a double holds; others where they are no overflow.
   bool number() {
-    constexpr std::size_t most_digits = 15;
     const char* begin = at_;
-    if (*at_ == '-') ++at_;
+    const bool is_negative = *at_ == '-';
+    if (is_negative) ++at_;
     const char* first = at_;
-    const std::size_t before = digits();
+    std::uint64_t all = 0, exponent = 0;
+    const std::size_t before = digits(all);
+    std::size_t after = 0;
     if (before == 0 || (before > 1 && *first == '0')) return false;
-    bool is_whole = true;
+    bool is_whole = true, has_exponent = false;
     if (at_ != end_ && *at_ == '.') {
       ++at_;
       is_whole = false;
-      if (digits() == 0) return false;
+      if ((after = digits(all)) == 0) return false;
     }
     if (at_ != end_ && (*at_ == 'e' || *at_ == 'E')) {
       ++at_;
       is_whole = false;
+      has_exponent = true;
       if (at_ != end_ && (*at_ == '+' || *at_ == '-')) ++at_;
-      if (digits() == 0) return false;
+      if (digits(exponent) == 0) return false;
     }
+    if (is_whole && (before > most_digits || (is_negative && *first == '0'))) return false;
     Node node;
     node.kind = Node::Kind::number;
-    if (is_whole && (before > most_digits || (*begin == '-' && *first == '0'))) return false;
-    const auto [stop, error] = std::from_chars(begin, at_, node.number);
-    if (error != std::errc() || stop != at_) return false;
+    if (before + after <= most_digits && !has_exponent) {
+      // both are held by a double, so that their quotient is rounded once: it is the nearest
+      node.number = static_cast<double>(all) / powers_of_ten[after];
+      if (is_negative) node.number = -node.number;
+    } else {
+      const auto [stop, error] = std::from_chars(begin, at_, node.number);
+      if (error != std::errc() || stop != at_) return false;
+    }
     node.text.assign(begin, at_);
     return builder_.scalar(std::move(node));
   }
+
+  static constexpr std::size_t most_digits = 15;  ///< that a double holds, whatever they are
+  static constexpr std::array<double, most_digits + 1> powers_of_ten = {
+      1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
   const char *at_, *end_;
   NodeBuilder& builder_;

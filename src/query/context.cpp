@@ -211,20 +211,20 @@ Value legs_value(const Robot& robot, const AnyPose& pose, std::span<const double
   for (const LegState& leg : leg_states(robot, pose, coordinates, work)) {
     Value object = Value::map();
     if (std::isnan(leg.curvature)) {
-      object["slide"] = leg.slide;
-      object["carriage"] = Value(leg.carriage);
-      object["hinge_angle"] = leg.hinge_angle;
+      object.add("slide") = leg.slide;
+      object.add("carriage") = Value(leg.carriage);
+      object.add("hinge_angle") = leg.hinge_angle;
     } else {
-      object["curvature"] = leg.curvature;
-      object["chord"] = leg.chord;
-      object["tendon_lengths"] = leg.tendon_lengths;
+      object.add("curvature") = leg.curvature;
+      object.add("chord") = leg.chord;
+      object.add("tendon_lengths") = leg.tendon_lengths;
       if (is_planar)
-        object["base_tangent"] = wrap_angle(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
+        object.add("base_tangent") = wrap_angle(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
       else
-        object["base_tangent"] = Value(leg.base_tangent);
-      if (!is_planar) object["joint_angles"] = leg.joint_angles;
+        object.add("base_tangent") = Value(leg.base_tangent);
+      if (!is_planar) object.add("joint_angles") = leg.joint_angles;
     }
-    if (leg.elbow != 0) object["elbow"] = leg.elbow;
+    if (leg.elbow != 0) object.add("elbow") = leg.elbow;
     legs.push_back(std::move(object));
   }
   return legs;

@@ -7,6 +7,7 @@
 
 #include "io/reader.hpp"
 #include "query/answer/value.hpp"
+#include "query/kinds.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
@@ -15,9 +16,6 @@
 #include "sinew/session.hpp"
 
 namespace sinew::inline v1 {
-
-/// Kinds of questions, in the order of `question_kinds`, which names them.
-enum class Ask { forward, inverse, velocity, shape, statics, track, diagram, identify, describe };
 
 struct Handlers;
 

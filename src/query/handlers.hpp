@@ -46,18 +46,12 @@ struct Lack {
 struct Handlers {
   std::string_view robots;  ///< as refusals call them
   Wants wants;              ///< what they tell of a configuration
-  Handler forward = nullptr, inverse = nullptr, velocity = nullptr, shape = nullptr, statics = nullptr,
-          track = nullptr, diagram = nullptr, identify = nullptr, describe = nullptr;
+  ByKind<Handler> answers;
   std::span<const Lack> lacks = {};
   /// What computes many rows of a question without asking each; empty `make` where there is nothing quicker.
   SamplerKind (*plan)(Context&, const RowPlaces&) = nullptr;
 
-  constexpr Handler of(Ask ask) const {
-    constexpr Handler Handlers::*by_kind[] = {&Handlers::forward, &Handlers::inverse,  &Handlers::velocity,
-                                              &Handlers::shape,   &Handlers::statics,  &Handlers::track,
-                                              &Handlers::diagram, &Handlers::identify, &Handlers::describe};
-    return this->*by_kind[static_cast<std::size_t>(ask)];
-  }
+  constexpr Handler of(Ask ask) const { return answers.of(ask); }
 };
 
 extern const Handlers kinematic_handlers;  ///< of legs that bear no load: arcs and rails

@@ -45,8 +45,6 @@ bool is_of_lengths(Ask ask, const Robot& robot, std::string_view model) {
   return robot.arm() && (!arm_handlers.of(ask) || model == "pcc" || model == "lsk");
 }
 
-std::string_view word_of(Ask ask) { return question_kinds()[static_cast<std::size_t>(ask)]; }
-
 /// Why a robot has no answer to any question of a kind; nothing where it has.
 std::optional<std::string> lack_of(Ask ask, const Robot& robot, std::string_view model) {
   if (is_of_lengths(ask, robot, model)) {
@@ -67,9 +65,9 @@ std::optional<std::string> lack_of(Ask ask, const Robot& robot, std::string_view
 
 /// @param model the word of it, as it is asked
 Ask read_ask(Reader& query, const Robot& robot, std::string_view model) {
-  static const std::string meaning = fmt::format("what is asked: {}", fmt::join(question_kinds(), ", "));
+  static const std::string meaning = fmt::format("what is asked: {}", fmt::join(ask_words, ", "));
   const Reader word = query.required("query", meaning);
-  const auto ask = static_cast<Ask>(word.choice_index(question_kinds()));
+  const auto ask = static_cast<Ask>(word.choice_index(ask_words));
   if (const auto lack = lack_of(ask, robot, model)) word.fail("not_available", *lack);
   return ask;
 }

@@ -278,14 +278,15 @@ void Search::settings(const Node& query, const Node& robot) {
 
 /// Where the answer says the robot is.
 std::string far_answer(const Value& answer, const RobotScale& scale) {
-  for (const char* key : {"pose", "tip"}) {
+  for (const std::string_view key : {"pose", "tip"}) {
     const Value* pose = answer.find(key);
     if (!pose || !pose->members()) continue;
     double square = 0;
+    const auto add = [&](double part) { square += part * part; };
     if (const Value* position = pose->find("position"))
-      for (const double part : position->block()->numbers()) square += part * part;
+      std::ranges::for_each(position->block()->numbers(), add);
     else if (pose->find("x"))
-      for (const char* axis : {"x", "y"}) square += std::pow(pose->find(axis)->number().value_or(0), 2);
+      for (const std::string_view axis : {"x", "y"}) add(pose->find(axis)->number().value_or(0));
     const double distance = std::sqrt(square);
     if (distance > far_length * scale.length)
       return fmt::format("the answer is {:.6g} m away, {:.3g} times the robot's size ({})", distance,

@@ -73,18 +73,19 @@ class FieldsOf : public testing::TestWithParam<Case> {};
 
 TEST_P(FieldsOf, AreThoseOfTheTable) {
   const Case& one = GetParam();
-  for (const std::string_view kind : question_kinds()) {
+  for (const Ask ask : every_ask) {
+    const std::string_view kind = word_of(ask);
     const Names known = known_by(one, std::string(kind));
     const bool is_of_chains =
-        one.mechanics == of_kinematic && kind == "statics";  // that is answered by chains
-    if (known.empty() || is_of_chains) continue;             // nobody answers it
+        one.mechanics == of_kinematic && ask == Ask::statics;  // that is answered by chains
+    if (known.empty() || is_of_chains) continue;               // nobody answers it
     for (const Field& field : question_fields()) {
-      if ((field.uses.of(kind) & one.mechanics) == 0) continue;
+      if ((field.uses.of(ask) & one.mechanics) == 0) continue;
       EXPECT_TRUE(known.contains(std::string(field.name))) << one.name << ' ' << kind << ": " << field.name;
     }
     for (const std::string& name : known) {
       const Field* field = find_field(name);
-      const bool is_told = field && (field->uses.of(kind) & one.mechanics) != 0;
+      const bool is_told = field && (field->uses.of(ask) & one.mechanics) != 0;
       EXPECT_TRUE(is_told || refused.at(one.name).contains(name))
           << one.name << ' ' << kind << " takes " << name;
     }
@@ -126,9 +127,9 @@ TEST(Fields, KindsOfQuestionsAreAnsweredUnderTheirNames) {
     const std::string answer = session.answer(fmt::format(R"({{"query":"{}",{}}})", kind, fields));
     EXPECT_NE(answer.find(fmt::format(R"("query":"{}")", kind)), std::string::npos) << answer;
     EXPECT_EQ(answer.find(R"("error":)"), std::string::npos) << answer;
-    EXPECT_NE(std::ranges::find(question_kinds(), std::string_view(kind)), question_kinds().end());
+    EXPECT_NE(std::ranges::find(ask_words, std::string_view(kind)), ask_words.end());
   }
-  EXPECT_EQ(question_kinds().size(), 9U);
+  EXPECT_EQ(ask_words.size(), 9U);
 }
 
 }  // namespace fields_test

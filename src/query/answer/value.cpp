@@ -49,6 +49,8 @@ int count_digits(std::uint64_t value) {
   return about + (value >= powers_of_ten[static_cast<std::size_t>(about)] ? 1 : 0);
 }
 
+__extension__ using Digits = unsigned __int128;  ///< sixteen of them
+
 constexpr std::size_t room_of_number =
     48;  ///< of which a third is for what is copied in one piece, past the end
 
@@ -108,7 +110,13 @@ char* write_number(char* to, double value) {
   }
   to[0] = first;
   put_rest(to + 1);
-  std::memmove(to + power + 2, to + power + 1, most_digits - 1);  // what comes after the point
+  if constexpr (std::endian::native ==
+                std::endian::little) {  // not read where it was just written: that waits
+    const auto after = (static_cast<Digits>(low) << 64 | high) >> (8 * power);
+    std::memcpy(to + power + 2, &after, sizeof after);
+  } else {
+    std::memmove(to + power + 2, to + power + 1, most_digits - 1);
+  }
   to[power + 1] = '.';
   return to + std::max(count + 1, power + 3);
 }
@@ -185,7 +193,7 @@ class JsonWriter {
   }
 
   void put_in_room(std::string_view plain) {
-    std::memcpy(to_, plain.data(), plain.size());
+    copy_name(to_, plain);
     to_ += plain.size();
   }
 
@@ -356,6 +364,8 @@ Value& Value::operator[](Key key) {
   if (Value* found = find(key.name())) return *found;
   return own(is_.map, Kind::map).emplace_back(key.name()).value;
 }
+
+Value& Value::add(Key key) { return own(is_.map, Kind::map).emplace_back(key.name()).value; }
 
 Value* Value::find(std::string_view name) {
   if (kind_ != Kind::map) return nullptr;

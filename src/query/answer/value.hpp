@@ -135,6 +135,7 @@ class SINEW_API Value {
   /// @name Maps
   /// @{
   Value& operator[](Key key);  ///< added where it is missing; a null becomes a map
+  Value& add(Key key);         ///< at the end of a map that has no such member
   Value* find(std::string_view name);
   const Value* find(std::string_view name) const { return const_cast<Value*>(this)->find(name); }
   bool contains(std::string_view name) const { return find(name) != nullptr; }

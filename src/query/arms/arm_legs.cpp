@@ -638,13 +638,13 @@ void describe_arm_legs(Context& context) {
 constexpr Handlers arm_legs_handlers{.robots = "legs of sections",
                                      .wants = {Want::pose, Want::legs, Want::velocity, Want::shape,
                                                Want::stiffness, Want::stability},  // that is told always
-                                     .forward = handle<read_legs, answer_legs>,
-                                     .inverse = handle<read_legs_inverse, answer_legs_inverse>,
-                                     .velocity = handle<read_legs, answer_legs>,
-                                     .shape = handle<read_legs, answer_legs>,
-                                     .statics = handle<read_legs_statics, answer_legs_statics>,
-                                     .track = handle<read_legs_track, answer_legs_track>,
-                                     .describe = tell<describe_arm_legs>,
+                                     .answers = {.forward = handle<read_legs, answer_legs>,
+                                                 .inverse = handle<read_legs_inverse, answer_legs_inverse>,
+                                                 .velocity = handle<read_legs, answer_legs>,
+                                                 .shape = handle<read_legs, answer_legs>,
+                                                 .statics = handle<read_legs_statics, answer_legs_statics>,
+                                                 .track = handle<read_legs_track, answer_legs_track>,
+                                                 .describe = tell<describe_arm_legs>},
                                      .lacks = lacking};
 
 }  // namespace sinew::inline v1

@@ -494,14 +494,14 @@ ArmForward read_arm_forward(ArmContext& context) {
 constexpr Handlers arm_handlers{
     .robots = "arms",
     .wants = {Want::pose, Want::velocity, Want::shape, Want::stiffness, Want::stability, Want::margins},
-    .forward = handle<read_arm_forward, answer_forward>,
-    .inverse = handle<read_inverse, answer_inverse>,
-    .velocity = handle<read_arm_forward, answer_forward>,
-    .shape = handle<read_arm_forward, answer_forward>,
-    .statics = handle<read_statics, answer_statics>,
-    .track = answer_arms_track,
-    .identify = answer_arms_identify,
-    .describe = answer_arm_describe,
+    .answers = {.forward = handle<read_arm_forward, answer_forward>,
+                .inverse = handle<read_inverse, answer_inverse>,
+                .velocity = handle<read_arm_forward, answer_forward>,
+                .shape = handle<read_arm_forward, answer_forward>,
+                .statics = handle<read_statics, answer_statics>,
+                .track = answer_arms_track,
+                .identify = answer_arms_identify,
+                .describe = answer_arm_describe},
     .plan = plan_arms};
 
 }  // namespace sinew::inline v1

@@ -214,12 +214,12 @@ void answer_statics(Context& context) {
 
 constexpr Handlers chain_handlers{.robots = "pseudo-rigid chains",
                                   .wants = equilibrium_wants,
-                                  .forward = handle_chains<ChainForward>,
-                                  .inverse = handle_chains<ChainInverse>,
-                                  .velocity = answer_chains_velocity,
-                                  .shape = answer_chains_shape,
-                                  .statics = answer_statics,
-                                  .track = answer_chains_track,
-                                  .describe = tell<describe_platform>};
+                                  .answers = {.forward = handle_chains<ChainForward>,
+                                              .inverse = handle_chains<ChainInverse>,
+                                              .velocity = answer_chains_velocity,
+                                              .shape = answer_chains_shape,
+                                              .statics = answer_statics,
+                                              .track = answer_chains_track,
+                                              .describe = tell<describe_platform>}};
 
 }  // namespace sinew::inline v1

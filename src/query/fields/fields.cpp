@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "base/same_name.hpp"
+
 namespace sinew::inline v1 {
 namespace {
 
 using Words = std::string_view[];
-
-constexpr std::array<std::string_view, 9> kinds{"forward", "inverse", "velocity", "shape",   "statics",
-                                                "track",   "diagram", "identify", "describe"};
 
 constexpr unsigned of_loads = of_chains | of_rods;
 /// Of arms by pcc and lsk, too.
@@ -56,7 +55,7 @@ constexpr auto table = [] {
 using enum FieldShape;
 using enum Dimension;
 return std::array{
-    Field{"query", word, number, always, "the kind of question", kinds},
+    Field{"query", word, number, always, "the kind of question", ask_words},
     Field{"id", text_or_number, number, always, "repeated in the answer"},
     Field{"model", word, number, of_models,
           "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a serial robot, without loads", models},
@@ -165,17 +164,11 @@ return std::array{
 
 }  // namespace
 
-unsigned FieldUses::of(std::string_view query) const {
-  const unsigned uses[] = {forward, inverse, velocity, shape, statics, track, diagram, identify, describe};
-  const auto kind = std::ranges::find(kinds, query);
-  return kind == kinds.end() ? 0 : uses[kind - kinds.begin()];
-}
-
-std::span<const std::string_view> question_kinds() { return kinds; }
 std::span<const Field> question_fields() { return table; }
 
 const Field* find_field(std::string_view name) {
-  const auto found = std::ranges::find(table, name, &Field::name);
+  const auto found =
+      std::ranges::find_if(table, [&](const Field& field) { return is_same_name(field.name, name); });
   return found == table.end() ? nullptr : &*found;
 }
 

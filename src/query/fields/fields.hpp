@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "query/kinds.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/units.hpp"
 
@@ -49,14 +50,7 @@ inline constexpr unsigned of_platforms = of_kinematic | of_chains | of_rods,
                           of_all = of_platforms | of_serial;
 
 /// Which mechanics take the field in a question of each kind.
-struct FieldUses {
-  unsigned forward = 0, inverse = 0, velocity = 0, shape = 0, statics = 0, track = 0, diagram = 0,
-           identify = 0, describe = 0;
-
-  SINEW_API unsigned of(std::string_view query) const;
-};
-/// The kinds of questions, in the order of FieldUses.
-SINEW_API std::span<const std::string_view> question_kinds();
+using FieldUses = ByKind<unsigned>;
 
 struct Field {
   std::string_view name;

@@ -278,12 +278,12 @@ KinematicConfiguration read_kinematic_configuration(Context& context) {
 constexpr Handlers kinematic_handlers{
     .robots = "legs that bear no load",
     .wants = usual_wants | Wants{Want::velocity, Want::shape, Want::sensitivity, Want::lines},
-    .forward = handle<read_forward, answer_forward>,
-    .inverse = handle<read_kinematic_inverse, answer_inverse>,
-    .velocity = handle<read_kinematic_configuration, answer_configuration>,
-    .shape = handle<read_kinematic_configuration, answer_configuration>,
-    .track = answer_kinematic_track,
-    .describe = tell<describe_platform>,
+    .answers = {.forward = handle<read_forward, answer_forward>,
+                .inverse = handle<read_kinematic_inverse, answer_inverse>,
+                .velocity = handle<read_kinematic_configuration, answer_configuration>,
+                .shape = handle<read_kinematic_configuration, answer_configuration>,
+                .track = answer_kinematic_track,
+                .describe = tell<describe_platform>},
     .plan = plan_poses};
 
 }  // namespace sinew::inline v1

@@ -485,13 +485,13 @@ RodForward read_rod_configuration(Context& context) {
 
 constexpr Handlers rod_handlers{.robots = "elastic rods",
                                 .wants = equilibrium_wants,
-                                .forward = handle<read_rod_forward, answer_forward>,
-                                .inverse = handle<read_inverse, answer_inverse>,
-                                .velocity = handle<read_rod_configuration, answer_forward>,
-                                .shape = handle<read_rod_configuration, answer_forward>,
-                                .statics = answer_rods_statics,
-                                .track = answer_rods_track,
-                                .describe = tell<describe_platform>,
+                                .answers = {.forward = handle<read_rod_forward, answer_forward>,
+                                            .inverse = handle<read_inverse, answer_inverse>,
+                                            .velocity = handle<read_rod_configuration, answer_forward>,
+                                            .shape = handle<read_rod_configuration, answer_forward>,
+                                            .statics = answer_rods_statics,
+                                            .track = answer_rods_track,
+                                            .describe = tell<describe_platform>},
                                 .plan = plan_rods};
 
 }  // namespace sinew::inline v1

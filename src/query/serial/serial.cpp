@@ -405,12 +405,12 @@ constexpr Lack lacking[] = {{"wrench", bears_none}, {"gravity", bears_none}, {"u
 
 constexpr Handlers serial_handlers{.robots = "serial robots",
                                    .wants = {Want::pose, Want::velocity, Want::shape},
-                                   .forward = handle<read_serial_forward, answer_forward>,
-                                   .inverse = answer_serial_inverse,
-                                   .velocity = handle<read_serial_forward, answer_forward>,
-                                   .shape = handle<read_serial_forward, answer_forward>,
-                                   .diagram = answer_serial_diagram,
-                                   .describe = answer_serial_describe,
+                                   .answers = {.forward = handle<read_serial_forward, answer_forward>,
+                                               .inverse = answer_serial_inverse,
+                                               .velocity = handle<read_serial_forward, answer_forward>,
+                                               .shape = handle<read_serial_forward, answer_forward>,
+                                               .diagram = answer_serial_diagram,
+                                               .describe = answer_serial_describe},
                                    .lacks = lacking,
                                    .plan = plan_sections};
 
