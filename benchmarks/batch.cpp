@@ -89,6 +89,14 @@ constexpr const char* rods_question = R"({"query": "forward", "inputs": "$L", "p
 constexpr const char* poses_question =
     R"({"query": "inverse", "pose": {"x": "$x", "y": "$y", "phi": "$phi"}})";
 
+constexpr const char* chains_question = R"({"query": "forward", "model": "prb", "inputs": "$L"})";
+
+std::vector<double> tendons(std::size_t rows) { return walk(rows, {0.19, 0.19, 0.19}, {3e-3, 3e-3, 3e-3}); }
+
+std::shared_ptr<Columns> chains(std::size_t rows) {
+  return std::make_shared<Columns>("3-rfr", chains_question, tendons(rows), true,
+                                   std::vector<std::size_t>{1, 1, 1, 1});
+}
 std::shared_ptr<Columns> rods(std::size_t rows) {
   return std::make_shared<Columns>("3pfs-g2", rods_question, lengths(rows), true,
                                    std::vector<std::size_t>{3, 4, 1});
@@ -119,6 +127,19 @@ struct TypedRods {
     equilibrium_batch(robot, std::span(in).subspan(3 * first, 3 * count), SpatialWrench::Zero(),
                       std::span(out).subspan(first, count), std::span(statuses).subspan(first, count), work,
                       true, std::span(residuals).subspan(first, count));
+  }
+};
+
+/// One equilibrium of pseudo-rigid chains after the other, each from home.
+struct TypedChains {
+  Robot robot = load("3-rfr")->as(Model::prb).value();
+  Workspace work{robot};
+  std::vector<double> in;
+
+  explicit TypedChains(std::size_t rows) : in(tendons(rows)) {}
+  void run() {
+    for (std::size_t k = 0; k < in.size(); k += 3)
+      benchmark::DoNotOptimize(equilibrium(robot, Numbers(in).subspan(k, 3), {}, work).report.status);
   }
 };
 
@@ -188,6 +209,22 @@ void compare_rows() {
            rows});
 }
 
+/// No plan computes these in any other way than question by question: what that costs beyond the solve.
+void compare_asked_rows() {
+  constexpr std::size_t rows = 512;
+  auto ours = chains(rows);
+  auto typed = std::make_shared<TypedChains>(rows);
+  ours->run(1);
+  compare({"3-rfr prb forward, a row of 512",
+           "typed, one after the other",
+           [ours] { ours->run(1); },
+           [typed] { typed->run(); },
+           ours->told(),
+           rows,
+           {},
+           rows});
+}
+
 void compare_single_rows() {
   constexpr std::size_t rows = 2048;
   auto ours = rods(rows);
@@ -250,6 +287,7 @@ void compare_questions() {
 int main(int argc, char** argv) {
   using namespace sinew::bench;
   compare_rows();
+  compare_asked_rows();
   compare_single_rows();
   compare_questions();
   return sinew::bench::main(argc, argv);

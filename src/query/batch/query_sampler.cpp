@@ -1,10 +1,13 @@
 /// Samples by queries, one after the other.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <memory>
 
 #include "query/batch/answer_path.hpp"
 #include "query/batch/placeholders.hpp"
+#include "query/batch/row_places.hpp"
 #include "query/batch/sampler.hpp"
 #include "query/tree_session.hpp"
 #include "sinew/base/numbers.hpp"
@@ -12,13 +15,34 @@
 namespace sinew::inline v1 {
 namespace {
 
+/// Whether it is told of a configuration without its legs, by all mechanics.
+bool is_without_legs(std::string_view output) {
+  constexpr std::array<std::string_view, 12> roots{
+      "pose",    "tip",    "inputs", "residual", "iterations", "determinant",
+      "indices", "type_1", "type_2", "rates",    "stable",     "unstable_directions"};
+  return std::ranges::find(roots, output.substr(0, output.find_first_of(".["))) != roots.end();
+}
+
+/// The question without what is usual of it and goes to no column: of chains, legs and what simpler models
+/// make of them take more time than the equilibrium.
+Document narrowed(const BatchQuestion& question, TreeSession& session) {
+  if (question.query.root.find("want") || !std::ranges::all_of(question.outputs, is_without_legs))
+    return question.query;
+  Node words;
+  words.kind = Node::Kind::list;
+  words.items.push_back(make_node("pose"));
+  BatchQuestion narrow = question;
+  narrow.query.root.members.push_back({.key = "want", .value = std::move(words)});
+  return session.errors_of(RowPlaces(narrow).trial()).empty() ? narrow.query : question.query;
+}
+
 class QuerySampler {
  public:
   explicit QuerySampler(std::shared_ptr<const BatchQuestion> question)
       : question_(std::move(question)),
-        query_(question_->query),
-        places_(placeholders(query_.root, question_->inputs)),
-        opened_(TreeSession::open(question_->robot).value()) {
+        opened_(TreeSession::open(question_->robot).value()),
+        query_(narrowed(*question_, opened_)),
+        places_(placeholders(query_.root, question_->inputs)) {
     for (const std::string& output : question_->outputs) paths_.emplace_back(output);
   }
 
@@ -76,10 +100,10 @@ class QuerySampler {
   }
 
   std::shared_ptr<const BatchQuestion> question_;
+  TreeSession opened_;
   Document query_;
   std::vector<Placeholder> places_;
   std::vector<AnswerPath> paths_;
-  TreeSession opened_;
   std::optional<AnyPose> last_;
 };
 
