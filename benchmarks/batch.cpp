@@ -256,13 +256,15 @@ struct Asked {
 
 void compare_questions() {
   constexpr std::size_t rows = 2048;
-  std::vector<std::string> inverse_questions, forward_questions;
+  std::vector<std::string> inverse_questions, forward_questions, pose_questions;
   const std::vector<double> poses = planar_poses(rows), inputs = lengths(rows);
   for (std::size_t k = 0; k < 3 * rows; k += 3) {
     inverse_questions.push_back(fmt::format(R"({{"query":"inverse","pose":{{"x":{},"y":{},"phi":{}}}}})",
                                             poses[k], poses[k + 1], poses[k + 2]));
     forward_questions.push_back(fmt::format(R"({{"query":"forward","inputs":[{},{},{}],"start":"last"}})",
                                             inputs[k], inputs[k + 1], inputs[k + 2]));
+    pose_questions.push_back(forward_questions.back());
+    pose_questions.back().insert(1, R"("want":["pose"],)");
   }
   auto in_plane = std::make_shared<Asked>("3-rfr", inverse_questions);
   auto typed_poses = std::make_shared<TypedPoses>(rows);
@@ -279,6 +281,9 @@ void compare_questions() {
   warm();
   compare({"3pfs forward from the last answer, asked", "typed warm equilibrium",
            [forward] { forward->next(); }, warm, "JSON in and out"});
+  auto pose = std::make_shared<Asked>("3pfs-g2", pose_questions);
+  compare({"the same, of the pose alone", "typed warm equilibrium", [pose] { pose->next(); }, warm,
+           "JSON in and out"});
 }
 
 }  // namespace
