@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "analysis/chain_velocity.hpp"
-#include "kinematics/chain_motion.hpp"
+#include "kinematics/chains/chain_motion.hpp"
 #include "report.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"

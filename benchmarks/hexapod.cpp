@@ -12,9 +12,9 @@
 
 #include "instruction_sets.hpp"
 #include "report.hpp"
-#include "robot/mechanism.hpp"
 #include "robot/parallel.hpp"
-#include "robot/tangent_system.hpp"
+#include "robot/rods/mechanism.hpp"
+#include "robot/rods/tangent_system.hpp"
 #include "shooting_hexapod.hpp"
 #include "shooting_rod/shooting_rod.hpp"
 #include "sinew/io/robot_file.hpp"

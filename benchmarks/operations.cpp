@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"

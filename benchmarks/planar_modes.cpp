@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "kinematics/planar_modes.hpp"
+#include "kinematics/modes/planar_modes.hpp"
 #include "report.hpp"
 
 namespace sinew::bench {

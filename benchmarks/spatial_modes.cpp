@@ -1,7 +1,7 @@
 /// All assembly modes of a robot with six distance legs beside Newton from many starts. Run:
 /// build/dev/bin/bench_spatial_modes
 /// Newton from 500 starts is what one writes first; how many modes it misses is not known to it.
-#include "kinematics/spatial_modes.hpp"
+#include "kinematics/modes/spatial_modes.hpp"
 
 #include <fmt/format.h>
 

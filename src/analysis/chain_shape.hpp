@@ -1,7 +1,7 @@
 /// @file chain_shape.hpp
 /// What a robot on pseudo-rigid chains looks like: polylines for pictures.
 #pragma once
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 #include "sinew/analysis/shape.hpp"
 
 namespace sinew::inline v1 {

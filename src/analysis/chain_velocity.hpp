@@ -2,7 +2,7 @@
 /// Velocity equations, sensitivities and singularities of robots on pseudo-rigid chains. Theory:
 /// docs/theory/chain_velocity.md
 #pragma once
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 #include "sinew/analysis/velocity.hpp"
 
 namespace sinew::inline v1 {

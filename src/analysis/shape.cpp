@@ -3,7 +3,7 @@
 
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
-#include "robot/rod_work.hpp"
+#include "robot/rods/rod_work.hpp"
 
 namespace sinew::inline v1 {
 namespace {

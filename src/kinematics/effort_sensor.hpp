@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "robot/limb_group.hpp"
+#include "robot/limbs/limb_group.hpp"
 #include "solve/continuation.hpp"
 #include "solve/stopped.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "math/linalg.hpp"
-#include "robot/limb_signs.hpp"
+#include "robot/limbs/limb_signs.hpp"
 #include "robot/pose.hpp"
 #include "solve/growing_load.hpp"
 

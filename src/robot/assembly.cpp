@@ -5,9 +5,9 @@
 
 #include "base/at.hpp"
 #include "robot/arguments.hpp"
-#include "robot/kinematic_group.hpp"
+#include "robot/limbs/kinematic_group.hpp"
 #include "robot/pose.hpp"
-#include "robot/rod_work.hpp"
+#include "robot/rods/rod_work.hpp"
 #include "sinew/robot/arm.hpp"
 #include "sinew/robot/arm_legs.hpp"
 #include "sinew/robot/serial.hpp"

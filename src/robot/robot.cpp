@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/limits.hpp"
-#include "robot/arm_sections.hpp"
+#include "robot/arms/arm_sections.hpp"
 #include "robot/make_chains.hpp"
 #include "sinew/robot/arm.hpp"
 #include "sinew/robot/arm_legs.hpp"

@@ -1,6 +1,6 @@
 #include "sinew/robot/serial.hpp"
 
-#include "robot/section_motion.hpp"
+#include "robot/arms/section_motion.hpp"
 
 namespace sinew::inline v1 {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "every_robot.hpp"
-#include "kinematics/chain_motion.hpp"
+#include "kinematics/chains/chain_motion.hpp"
 #include "serial_robots.hpp"
 #include "sinew/analysis/singularity.hpp"
 #include "sinew/io/robot_file.hpp"

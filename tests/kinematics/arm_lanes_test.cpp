@@ -8,7 +8,7 @@
 
 #include "arms.hpp"
 #include "kinematics/arms/arm_lanes.hpp"
-#include "robot/arm_model.hpp"
+#include "robot/arms/arm_model.hpp"
 #include "strain/condense.hpp"
 #include "strain/lanes.hpp"
 #include "strain/relax.hpp"

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "arms.hpp"
-#include "robot/arm_model.hpp"
+#include "robot/arms/arm_model.hpp"
 #include "strain/relax.hpp"
 
 namespace sinew::test {

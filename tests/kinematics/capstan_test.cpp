@@ -1,5 +1,5 @@
 /// Slip along a tendon, and what Newton's method makes of it (docs/theory/tendon_friction.md).
-#include "strain/capstan.hpp"
+#include "strain/friction/capstan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 
 #include "arms.hpp"
-#include "robot/arm_model.hpp"
-#include "strain/friction_rod.hpp"
+#include "robot/arms/arm_model.hpp"
+#include "strain/friction/friction_rod.hpp"
 
 namespace sinew::test {
 namespace capstan_test {

@@ -1,5 +1,5 @@
 /// Stability as a count, margins, and what inputs do to an equilibrium of chains.
-#include "kinematics/chain_analysis.hpp"
+#include "kinematics/chains/chain_analysis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "chain_robots.hpp"
-#include "kinematics/chain_equilibria.hpp"
+#include "kinematics/chains/chain_equilibria.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/inverse.hpp"
 

@@ -1,5 +1,5 @@
 /// Curves of equilibria on chains: their points are equilibria, their folds those of growing loads.
-#include "kinematics/chain_curve.hpp"
+#include "kinematics/chains/chain_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "chain_robots.hpp"
-#include "kinematics/chain_analysis.hpp"
+#include "kinematics/chains/chain_analysis.hpp"
 #include "sinew/kinematics/track.hpp"
 
 namespace sinew::test {

@@ -1,6 +1,6 @@
 /// Platforms on pseudo-rigid chains against the numbers of an independent implementation, and against
 /// differences.
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Joints of chains along a path of the platform: the numbers of an independent implementation, and what the
 /// flow must keep.
-#include "kinematics/chain_motion.hpp"
+#include "kinematics/chains/chain_motion.hpp"
 
 #include <gtest/gtest.h>
 

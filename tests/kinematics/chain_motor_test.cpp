@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/inverse.hpp"
 

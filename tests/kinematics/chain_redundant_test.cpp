@@ -6,7 +6,7 @@
 #include "analysis/chain_velocity.hpp"
 #include "base/limits.hpp"
 #include "chain_robots.hpp"
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/inverse.hpp"
 

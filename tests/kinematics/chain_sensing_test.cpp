@@ -1,5 +1,5 @@
 /// The load from tensions: put on, read, and sensed back.
-#include "kinematics/chain_sensing.hpp"
+#include "kinematics/chains/chain_sensing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kinematics/hinged_modes.hpp"
+#include "kinematics/modes/hinged_modes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "analysis/tripod_loci.hpp"
 #include "check_jacobian.hpp"
 #include "kinematics/closing.hpp"
-#include "kinematics/three_circles.hpp"
+#include "kinematics/modes/three_circles.hpp"
 #include "thorough.hpp"
 #include "uniform.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "check_jacobian.hpp"
 #include "link/bent_motion.hpp"
-#include "robot/section_motion.hpp"
+#include "robot/arms/section_motion.hpp"
 #include "serial_robots.hpp"
 
 namespace sinew::test {

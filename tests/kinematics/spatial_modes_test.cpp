@@ -1,4 +1,4 @@
-#include "kinematics/spatial_modes.hpp"
+#include "kinematics/modes/spatial_modes.hpp"
 
 #include <gtest/gtest.h>
 

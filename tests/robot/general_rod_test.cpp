@@ -9,7 +9,7 @@
 #include "link/elastica_map.hpp"
 #include "random_rod.hpp"
 #include "reference_file.hpp"
-#include "robot/spectral_rod.hpp"
+#include "robot/rods/spectral_rod.hpp"
 #include "rod_robots.hpp"
 #include "shooting_rod/rod_bvp.hpp"
 

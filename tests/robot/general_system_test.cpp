@@ -1,6 +1,6 @@
 /// Rods that bear torque as legs: against rods without torque, against differences, against each rod by
 /// itself, and against balances of the whole.
-#include "robot/general_system.hpp"
+#include "robot/rods/general_system.hpp"
 
 #include <gtest/gtest.h>
 

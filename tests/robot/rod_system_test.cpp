@@ -1,6 +1,6 @@
 /// Rods between a base and a platform as one system: each rod against the exact elastica, forces against
 /// their slopes, lanes against each other. Whole robots: tests/kinematics/rod_*_test.cpp.
-#include "robot/rod_system.hpp"
+#include "robot/rods/rod_system.hpp"
 
 #include <gtest/gtest.h>
 

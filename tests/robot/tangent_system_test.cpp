@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kinematics/rods/solve.hpp"
-#include "robot/tangent_kernels.hpp"
+#include "robot/rods/tangent_kernels.hpp"
 #include "rod_robots.hpp"
 
 namespace sinew::test {

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "kinematics/planar_modes.hpp"
+#include "kinematics/modes/planar_modes.hpp"
 #include "uniform.hpp"
 
 namespace sinew::test {

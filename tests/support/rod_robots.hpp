@@ -8,12 +8,12 @@
 
 #include "kinematics/rods/path.hpp"
 #include "link/elastica.hpp"
-#include "robot/general_system.hpp"
-#include "robot/mechanism.hpp"
 #include "robot/pose.hpp"
-#include "robot/rod_system.hpp"
-#include "robot/rod_work.hpp"
-#include "robot/tangent_system.hpp"
+#include "robot/rods/general_system.hpp"
+#include "robot/rods/mechanism.hpp"
+#include "robot/rods/rod_system.hpp"
+#include "robot/rods/rod_work.hpp"
+#include "robot/rods/tangent_system.hpp"
 #include "tripod_3pfs.hpp"
 
 namespace sinew::test {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "robot/arm_model.hpp"
+#include "robot/arms/arm_model.hpp"
 #include "sinew/analysis/identify.hpp"
 #include "strain/relax.hpp"
 #include "strain/tangent.hpp"

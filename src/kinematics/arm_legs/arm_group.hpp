@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinematics/arms/arm_work.hpp"
-#include "robot/limb_group.hpp"
+#include "robot/limbs/limb_group.hpp"
 #include "sinew/kinematics/arm_legs.hpp"
 #include "sinew/robot/arm_legs.hpp"
 

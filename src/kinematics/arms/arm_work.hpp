@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "kinematics/arms/ladder.hpp"
-#include "robot/arm_model.hpp"
+#include "robot/arms/arm_model.hpp"
 #include "sinew/kinematics/arm.hpp"
 #include "strain/relax.hpp"
 

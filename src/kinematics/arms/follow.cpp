@@ -7,7 +7,7 @@
 #include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
 #include "sinew/kinematics/arm_path.hpp"
-#include "strain/friction_rod.hpp"
+#include "strain/friction/friction_rod.hpp"
 #include "strain/tangent.hpp"
 
 namespace sinew::inline v1 {

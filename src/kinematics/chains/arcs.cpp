@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinematics/chain_analysis.hpp"
+#include "kinematics/chains/chain_analysis.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/robot/assembly.hpp"
 

@@ -4,7 +4,7 @@
 #pragma once
 #include <optional>
 
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::inline v1 {

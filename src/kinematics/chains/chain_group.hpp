@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kinematics/chains/leg_factors.hpp"
-#include "robot/limb_group.hpp"
+#include "robot/limbs/limb_group.hpp"
 
 namespace sinew::inline v1 {
 

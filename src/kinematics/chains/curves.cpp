@@ -1,5 +1,5 @@
 /// Curves of equilibria on chains.
-#include "kinematics/chain_curve.hpp"
+#include "kinematics/chains/chain_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 /// Many equilibria of chains, by many starts.
-#include "kinematics/chain_equilibria.hpp"
+#include "kinematics/chains/chain_equilibria.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/limits.hpp"
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 #include "leg/chord.hpp"
 #include "leg/closure_curvature.hpp"
 #include "leg/strut.hpp"

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "base/limits.hpp"
-#include "kinematics/chain_motion.hpp"
+#include "kinematics/chains/chain_motion.hpp"
 #include "kinematics/chains/leg_system.hpp"
 
 namespace sinew::inline v1 {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/chain_curve.hpp"
-#include "kinematics/chain_sensing.hpp"
 #include "kinematics/chains/asked.hpp"
+#include "kinematics/chains/chain_curve.hpp"
+#include "kinematics/chains/chain_sensing.hpp"
 #include "kinematics/chains/solutions.hpp"
 
 namespace sinew::inline v1 {

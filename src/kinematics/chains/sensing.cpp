@@ -1,5 +1,5 @@
 /// The wrench from tensions.
-#include "kinematics/chain_sensing.hpp"
+#include "kinematics/chains/chain_sensing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 /// What inputs do to an equilibrium of chains.
-#include "kinematics/chain_analysis.hpp"
+#include "kinematics/chains/chain_analysis.hpp"
 #include "kinematics/chains/path.hpp"
 
 namespace sinew::inline v1 {

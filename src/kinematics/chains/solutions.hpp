@@ -2,8 +2,8 @@
 /// All equilibria of chains that are found of a robot's inputs, or of a pose: searches begin at the solutions
 /// of the arcs whose place the chains take. Theory: docs/theory/chain_equilibrium.md
 #pragma once
-#include "kinematics/chain_equilibria.hpp"
 #include "kinematics/chains/arcs.hpp"
+#include "kinematics/chains/chain_equilibria.hpp"
 
 namespace sinew::inline v1 {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/chain_analysis.hpp"
+#include "kinematics/chains/chain_analysis.hpp"
 #include "kinematics/chains/path.hpp"
 
 namespace sinew::inline v1 {

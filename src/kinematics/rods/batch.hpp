@@ -3,7 +3,7 @@
 /// each lane walks along its own, and a pose that does not come at once is solved alone.
 #pragma once
 #include "kinematics/rods/solve.hpp"
-#include "robot/rod_system.hpp"
+#include "robot/rods/rod_system.hpp"
 
 namespace sinew::inline v1 {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kinematics/load_problem.hpp"
-#include "robot/rod_group.hpp"
+#include "robot/rods/rod_group.hpp"
 #include "sinew/solve/report.hpp"
 #include "solve/continuation.hpp"
 

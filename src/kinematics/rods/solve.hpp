@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "kinematics/rods/path.hpp"
-#include "robot/rod_work.hpp"
+#include "robot/rods/rod_work.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {

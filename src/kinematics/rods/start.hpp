@@ -2,7 +2,7 @@
 /// Where a search for an equilibrium of rods begins: at home, or at a pose the rods are laid to.
 #pragma once
 #include "kinematics/rods/path.hpp"
-#include "robot/rod_work.hpp"
+#include "robot/rods/rod_work.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {

@@ -2,7 +2,7 @@
 /// Theory: docs/theory/three_arcs.md
 #pragma once
 #include "kinematics/serial/chord_curve.hpp"
-#include "kinematics/three_arcs.hpp"
+#include "kinematics/serial/three_arcs.hpp"
 #include "sinew/math/se3.hpp"
 
 namespace sinew::inline v1 {

@@ -5,7 +5,7 @@
 #include "sinew/kinematics/serial.hpp"
 
 #include "link/bent_motion.hpp"
-#include "robot/section_motion.hpp"
+#include "robot/arms/section_motion.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {

@@ -1,4 +1,4 @@
-#include "kinematics/three_arcs.hpp"
+#include "kinematics/serial/three_arcs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 /// `statics` of pseudo-rigid chains with tensions that are measured.
-#include "kinematics/chain_sensing.hpp"
+#include "kinematics/chains/chain_sensing.hpp"
 
 #include <fmt/format.h>
 
 #include "io/reader.hpp"
-#include "kinematics/chain_sensing.hpp"
+#include "kinematics/chains/chain_sensing.hpp"
 #include "kinematics/effort_sensor.hpp"
 #include "query/chains/chain_answer.hpp"
 

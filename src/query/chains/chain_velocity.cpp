@@ -7,7 +7,7 @@
 
 #include "analysis/chain_shape.hpp"
 #include "io/reader.hpp"
-#include "kinematics/chain_motion.hpp"
+#include "kinematics/chains/chain_motion.hpp"
 #include "query/chains/chain_velocity.hpp"
 #include "solve/stopped.hpp"
 

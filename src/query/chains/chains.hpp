@@ -2,8 +2,8 @@
 /// What handlers of questions to pseudo-rigid chains share.
 #pragma once
 #include "io/reader.hpp"
-#include "kinematics/chain_analysis.hpp"
 #include "kinematics/chains/arcs.hpp"
+#include "kinematics/chains/chain_analysis.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
 

@@ -9,7 +9,7 @@
 #include "io/reader.hpp"
 #include "query/batch/sampler.hpp"
 #include "robot/parallel.hpp"
-#include "robot/rod_work.hpp"
+#include "robot/rods/rod_work.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "solve/stopped.hpp"

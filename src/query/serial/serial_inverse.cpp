@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "kinematics/three_arcs.hpp"
+#include "kinematics/serial/three_arcs.hpp"
 #include "query/serial/serial.hpp"
 #include "query/tip.hpp"
 #include "sinew/kinematics/serial.hpp"

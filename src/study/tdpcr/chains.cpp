@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/chain.hpp"
+#include "kinematics/chains/chain.hpp"
 #include "sinew/io/table.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"

@@ -1,6 +1,6 @@
 #include "study/tdpcr/example51_chains.hpp"
 
-#include "kinematics/chain_motion.hpp"
+#include "kinematics/chains/chain_motion.hpp"
 
 namespace sinew::inline v1::example51 {
 namespace {
