@@ -9,8 +9,7 @@
 #include "query/answer/value.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "sinew/robot/robot.hpp"
 #include "sinew/session.hpp"
 

@@ -10,8 +10,10 @@
 #include <numeric>
 #include <set>
 
+#include "sinew/analysis/identify.hpp"
 #include "sinew/base/export.hpp"
-#include "sinew/io/measured_arm.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/io/table.hpp"
 
 namespace sinew::inline v1 {
 namespace {
