@@ -13,7 +13,7 @@
 #include <fstream>
 #include <vector>
 
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "sinew/study/sweep.hpp"
 
 namespace {

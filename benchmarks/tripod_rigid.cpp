@@ -10,7 +10,6 @@
 #include "report.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
 

@@ -14,7 +14,7 @@
 #include "query/fields/fields.hpp"
 #include "show.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {

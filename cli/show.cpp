@@ -8,7 +8,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "sinew/base/error.hpp"
-#include "sinew/base/stop.hpp"
+#include "sinew/solve/report.hpp"
 
 namespace sinew::cli {
 

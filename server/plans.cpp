@@ -17,7 +17,7 @@
 #include "robots.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/plan/insertion.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 
 namespace sinew::server {
 namespace {

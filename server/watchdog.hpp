@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-#include "sinew/base/stop.hpp"
+#include "sinew/solve/report.hpp"
 
 namespace sinew::server {
 

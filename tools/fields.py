@@ -184,7 +184,7 @@ def python_table(fields, answers):
         names.remove(first)
         lines.append(f"    {kind!r}: {(first, *names)!r},")
     lines += ["}", "", "UNITS = {"]
-    lines += [f"    {answer['name']!r}: {answer['unit']!r}," for answer in answers if answer["unit"] and "." not in answer["name"]]
+    lines += [f"    {answer['name']!r}: {answer['unit']!r}," for answer in answers if answer["unit"] or "." in answer["name"]]
     return "\n".join(lines) + "\n}\n"
 
 

@@ -11,7 +11,7 @@
 #include "io/arm_file.hpp"
 #include "io/serial_file.hpp"
 #include "show.hpp"
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 
 namespace sinew::cli {
 namespace {

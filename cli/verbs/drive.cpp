@@ -13,7 +13,7 @@
 #include "io/visible.hpp"
 #include "request.hpp"
 #include "serial_robot.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 

@@ -13,7 +13,7 @@
 #include "request.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/plan/insertion.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 #include "waiting.hpp"

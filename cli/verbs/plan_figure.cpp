@@ -15,7 +15,7 @@
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 #include "sinew/plan/insertion.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "study_items.hpp"
 #include "terminal.hpp"
 

@@ -20,7 +20,7 @@
 #include "request.hpp"
 #include "show.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "study_items.hpp"
 #include "terminal.hpp"
 

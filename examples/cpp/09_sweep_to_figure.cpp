@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "sinew/io/table.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "sinew/study/sweep.hpp"
 
 /// One query of docs/protocol.md put at a grid of poses: docs/studies.md

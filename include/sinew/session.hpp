@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "sinew/base/error.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/io/node.hpp"
+#include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {
 

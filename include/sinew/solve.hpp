@@ -8,15 +8,10 @@
 #include "sinew/analysis/velocity.hpp"             // IWYU pragma: export
 #include "sinew/kinematics/arm.hpp"                // IWYU pragma: export
 #include "sinew/kinematics/arm_legs.hpp"           // IWYU pragma: export
-#include "sinew/kinematics/arm_path.hpp"           // IWYU pragma: export
-#include "sinew/kinematics/constrained_pose.hpp"   // IWYU pragma: export
 #include "sinew/kinematics/equilibrium.hpp"        // IWYU pragma: export
 #include "sinew/kinematics/equilibrium_curve.hpp"  // IWYU pragma: export
-#include "sinew/kinematics/follow_the_leader.hpp"  // IWYU pragma: export
-#include "sinew/kinematics/force_sensing.hpp"      // IWYU pragma: export
 #include "sinew/kinematics/forward.hpp"            // IWYU pragma: export
 #include "sinew/kinematics/inverse.hpp"            // IWYU pragma: export
 #include "sinew/kinematics/serial.hpp"             // IWYU pragma: export
-#include "sinew/kinematics/track.hpp"              // IWYU pragma: export
 #include "sinew/kinematics/trajectory.hpp"         // IWYU pragma: export
 #include "sinew/tendon/diagram.hpp"                // IWYU pragma: export

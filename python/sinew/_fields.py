@@ -71,7 +71,7 @@ RANKS.update({"x": 0, "y": 0, "phi": 0, "z": 0, "e1": 0, "e2": 0, "position": 1,
 
 UNITS = {
     **{name: unit for name, unit in _table.UNITS.items() if name not in ("base_tangent", "configuration", "z")}, "quaternion": "",
-    "backbones": "m", "tendons": "m", "lines": "m", "platform": "m", "base": "m", "iterations": "", "determinant": "", "residual": "",
+    "area": "rad^2", "iterations": "", "determinant": "", "residual": "",
     "height": "m", "radius": "m", "axial_forces": "N",
 }
 """Of what answers have, where every number of it has the same."""

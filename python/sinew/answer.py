@@ -165,12 +165,20 @@ class Answer(Record):
         return Answer, (self._robot, self._question, self._text)
 
 
-_OF_DIAGRAMS = {"point": "rad", "polygon": "rad", "boundary": "rad", "area": "rad^2"}  # a plane of bends
 _WITHOUT = ("indices.", "freedoms.")  # ratios and counts, whose names mean something else elsewhere
+_LONG = tuple((f".{name}", unit) for name, unit in UNITS.items() if "." in name)  # other than of their last word
+
+
+def _unit(place: str, name: str) -> str | None:
+    """Of `rows[].point`, whose last word is `name`; None where nothing is known, or numbers have several."""
+    words = "." + place.replace("[]", "")
+    for end, unit in _LONG:
+        if words.endswith(end):
+            return unit or None
+    return UNITS.get(name)
 
 
 def _units(plain: Mapping[str, Any], robot: Robot, outer: str) -> Iterator[tuple[str, str]]:
-    known = {**UNITS, **_OF_DIAGRAMS} if plain.get("query") == "diagram" else UNITS
     for name, value in plain.items():
         place = outer + name
         if name == "inputs":
@@ -181,5 +189,5 @@ def _units(plain: Mapping[str, Any], robot: Robot, outer: str) -> Iterator[tuple
             yield from _units(value, robot, place + ".")
         elif type(value) is list and value and type(value[0]) is dict:
             yield from _units(value[0], robot, place + "[].")
-        elif name in known and not outer.endswith(_WITHOUT):
-            yield place, known[name]
+        elif not outer.endswith(_WITHOUT) and (unit := _unit(place, name)) is not None:
+            yield place, unit

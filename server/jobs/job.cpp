@@ -17,8 +17,15 @@ void Job::show(std::size_t done, std::size_t total) {
   total_ = total;
 }
 
+void Job::tell(std::string question) {
+  const std::lock_guard lock(mutex_);
+  question_ = std::move(question);
+  ++told_;
+}
+
 bool Job::add(std::string answer) {
   const std::lock_guard lock(mutex_);
+  question_.clear();
   if (answer.size() > limits_.result - bytes_) return false;
   bytes_ += answer.size();
   answers_.push_back(std::move(answer));
@@ -62,6 +69,8 @@ News Job::news(std::size_t position, Clock::time_point until) const {
   news.done = done_;
   news.total = total_;
   news.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+  news.question = question_;
+  news.told = told_;
   news.outcome = outcome_;
   std::size_t next = position;
   for (; next < answers_.size() && news.text.size() < batch_bytes; ++next) {

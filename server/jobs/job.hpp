@@ -24,6 +24,8 @@ struct Outcome {
 struct News {
   std::size_t done = 0, total = 0;         ///< samples or queries
   double seconds = 0;                      ///< since the first of them
+  std::string question;                    ///< how far the one asked now is, JSON; empty: it has not said
+  std::size_t told = 0;                    ///< how often questions have said it
   std::size_t answers = 0;                 ///< how many come now
   std::string text;                        ///< they, with commas between
   bool has_more = false;                   ///< there are answers after them already
@@ -38,6 +40,8 @@ class Job {
   /// @name For the thread that works
   /// @{
   void show(std::size_t done, std::size_t total);
+  /// How far the question is that is answered now, JSON; until its answer is added.
+  void tell(std::string question);
   /// The next answer; false: there is no room for it.
   bool add(std::string answer);
   /// Nobody wants it any more: it was cancelled, or left alone for too long.
@@ -67,6 +71,8 @@ class Job {
   mutable std::condition_variable ended_;
   std::size_t done_ = 0, total_ = 0, bytes_ = 0;
   std::vector<std::string> answers_;
+  std::string question_;
+  std::size_t told_ = 0;
   std::shared_ptr<const Outcome> outcome_;
   bool is_cancelled_ = false, is_abandoned_ = false;
   int listeners_ = 0;

@@ -63,12 +63,13 @@ std::string Stream::answers(const News& news) {
 }
 
 std::string Stream::progress(const News& news) {
-  if (shown_ == news.done) return {};
-  shown_ = news.done;
+  const bool has_said = std::exchange(heard_, news.told) != news.told && !news.question.empty();
+  if (std::exchange(shown_, news.done) == news.done && !has_said) return {};
   std::string data = fmt::format(R"({{"done":{},"total":{})", news.done, news.total);
   if (const double rate = static_cast<double>(news.done) / news.seconds; rate > 0 && news.seconds > 0)
     data += fmt::format(R"(,"rate":{:.1f},"left":{:.1f})", rate,
                         static_cast<double>(news.total - news.done) / rate);
+  if (!news.question.empty()) data += R"(,"question":)" + news.question;
   return event(std::to_string(position_), "progress", data + '}');
 }
 

@@ -37,6 +37,7 @@ class Stream {
   Places::Place place_;  // of a listener
   Clock::time_point said_{}, due_{};
   std::optional<std::size_t> shown_;  // of what is done
+  std::size_t heard_ = 0;             // of what questions say
   bool has_begun_ = false, has_more_ = false, has_ended_ = false;
 };
 

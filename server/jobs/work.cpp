@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "query/progress.hpp"
 #include "scratch.hpp"
 #include "server/reply.hpp"
 #include "sinew/study/sweep.hpp"
@@ -82,6 +83,9 @@ Outcome answer_all(OpenRobot& robot, const std::vector<std::string>& queries, Wa
   if (!session) return failed({"internal", "robot", "the robot cannot be opened again"});
   const Watchdog::Watched watched(dog, [&] { return job.is_over(); });
   session->stop_on(watched.token());
+  session->progress_to([&job](const QuestionProgress& now) {
+    job.tell(progress_json(true, now).dump(-1, ' ', false, Json::error_handler_t::replace));
+  });
   job.show(0, queries.size());
   const auto begin = Job::Clock::now();
   for (const std::string& query : queries) {
@@ -91,6 +95,7 @@ Outcome answer_all(OpenRobot& robot, const std::vector<std::string>& queries, Wa
     if (!job.add(std::move(answer)))
       return failed({"too_large", "queries", "the answers before fill a job; ask for fewer at once"});
   }
+  session->progress_to({});  // it outlives this job
   robot.give_back(std::move(*session));
   const double seconds = std::chrono::duration<double>(Job::Clock::now() - begin).count();
   return {Outcome::Kind::done, Json{{"answers", queries.size()}, {"seconds", seconds}}.dump(), {}};

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "io/parse.hpp"
+#include "query/progress.hpp"
 #include "sinew/batch.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"
@@ -48,15 +49,8 @@ struct sinew_session : sinew_object {
   void stop() override { is_to_stop = true; }
   /// Of the question that is answered now, if one is; from any thread.
   std::string progress() {
-    nlohmann::ordered_json answer{{"query", "progress"}};
     const std::scoped_lock lock(guard);
-    answer["busy"] = is_busy;
-    if (so_far) {
-      answer["part"] = so_far->part;
-      answer["steps"] = so_far->steps;
-      answer["error"] = so_far->error;
-    }
-    return answer.dump();
+    return sinew::progress_json(is_busy, so_far).dump();
   }
   void set_busy(bool is) {
     const std::scoped_lock lock(guard);

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "math/linalg.hpp"
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -12,8 +12,7 @@
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/analysis/velocity.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::inline v1 {
 namespace {

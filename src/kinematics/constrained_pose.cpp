@@ -1,4 +1,4 @@
-#include "sinew/kinematics/constrained_pose.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 #include <array>
 #include <cmath>

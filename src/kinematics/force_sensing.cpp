@@ -1,4 +1,4 @@
-#include "sinew/kinematics/force_sensing.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>

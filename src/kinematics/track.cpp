@@ -1,4 +1,3 @@
-#include "sinew/kinematics/track.hpp"
 
 #include <cmath>
 
@@ -8,7 +7,7 @@
 #include "robot/arguments.hpp"
 #include "robot/parallel.hpp"
 #include "robot/pose.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "solve/continuation.hpp"
 #include "solve/message.hpp"
 #include "solve/stopped.hpp"

@@ -12,7 +12,7 @@
 #include "leg/platform_constraint.hpp"
 #include "leg/space.hpp"
 #include "link/backbone.hpp"
-#include "sinew/leg/state.hpp"
+#include "sinew/link/state.hpp"
 #include "solve/message.hpp"
 #include "solve/roots.hpp"
 

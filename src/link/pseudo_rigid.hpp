@@ -10,7 +10,7 @@
 
 #include "base/assert.hpp"
 #include "base/limits.hpp"
-#include "sinew/link/prb_discretisation.hpp"
+#include "sinew/link/state.hpp"
 #include "sinew/math/vec.hpp"
 
 namespace sinew::inline v1 {

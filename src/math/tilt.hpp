@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 
 namespace sinew::inline v1 {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <chrono>
 
-#include "sinew/base/stop.hpp"
+#include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {
 

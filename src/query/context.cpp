@@ -7,8 +7,8 @@
 #include "io/read_pose.hpp"
 #include "io/reader.hpp"
 #include "math/tilt.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::inline v1 {
 

@@ -10,8 +10,7 @@
 #include "query/kinds.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "sinew/robot/robot.hpp"
 #include "sinew/session.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "sinew/base/stop.hpp"
+#include "sinew/solve/report.hpp"
 #include "solve/contraction.hpp"
 
 namespace sinew::inline v1 {

@@ -1,7 +1,6 @@
 /// @file stopped.hpp
 /// The report of a solve that was asked to stop.
 #pragma once
-#include "sinew/base/stop.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "long_fit.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"
 
@@ -158,21 +159,6 @@ TEST(CAbi, StopsFromAnotherThread) {
   sinew_release(robot);
 }
 
-/// A fit of an arm of three sections that takes a while, as a question.
-std::string long_fit() {
-  Json rows{{"pulls", Json::array()}, {"markers", Json::array()}};
-  for (int k = 0; k < 300; ++k) {
-    Json pulls = Json::array();
-    for (int m = 0; m < 3; ++m) {
-      const double one = 0.002 * std::sin(0.3 * k + m), other = 0.002 * std::cos(0.17 * k * (m + 1));
-      for (const double pull : {one, other, -one - other}) pulls.push_back(pull);
-    }
-    rows["markers"].push_back({5 * pulls[0].get<double>(), 5 * pulls[4].get<double>(), 0.2});
-    rows["pulls"].push_back(std::move(pulls));
-  }
-  return Json{{"query", "identify"}, {"fit", "bending,marker,base"}, {"folds", 3}, {"rows", rows}}.dump();
-}
-
 TEST(CAbi, TellsHowFarAFitIsToAnotherThread) {
   sinew_robot* robot = opened("ftdcr-v4");
   sinew_session* session = sinew_session_new(robot);
@@ -181,7 +167,7 @@ TEST(CAbi, TellsHowFarAFitIsToAnotherThread) {
   std::atomic<bool> is_over = false;
   std::string answer;
   std::thread fit([&] {
-    answer = asked(session, long_fit());
+    answer = asked(session, sinew::test::long_fit());
     is_over = true;
   });
   int told = 0, last = 0;

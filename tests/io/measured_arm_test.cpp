@@ -1,5 +1,6 @@
 /// Arms written as files and read again; tables of measured rows.
-#include "sinew/io/measured_arm.hpp"
+#include "sinew/analysis/identify.hpp"
+#include "sinew/io/table.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "arms.hpp"
-#include "sinew/kinematics/arm_path.hpp"
+#include "sinew/kinematics/arm.hpp"
 
 namespace sinew::test {
 namespace arm_friction_test {

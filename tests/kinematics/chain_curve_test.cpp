@@ -8,7 +8,7 @@
 
 #include "chain_robots.hpp"
 #include "kinematics/chains/chain_analysis.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
 namespace chain_curve_test {

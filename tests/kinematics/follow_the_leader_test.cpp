@@ -1,5 +1,5 @@
 /// A robot that advances along the curve that its tip draws.
-#include "sinew/kinematics/follow_the_leader.hpp"
+#include "sinew/kinematics/trajectory.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// The load on a platform from what its rods pull at their guides.
-#include "sinew/kinematics/force_sensing.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 

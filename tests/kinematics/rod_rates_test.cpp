@@ -7,7 +7,7 @@
 
 #include "rod_robots.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
 namespace rod_rates_test {

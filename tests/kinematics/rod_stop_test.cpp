@@ -9,8 +9,8 @@
 #include "cpu_time.hpp"
 #include "rod_robots.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
-#include "sinew/kinematics/force_sensing.hpp"
 
 namespace sinew::test {
 namespace rod_stop_test {

@@ -1,4 +1,4 @@
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 #include <gtest/gtest.h>
 

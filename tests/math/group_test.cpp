@@ -9,7 +9,6 @@
 #include "check_jacobian.hpp"
 #include "sinew/math/se2.hpp"
 #include "sinew/math/se3.hpp"
-#include "sinew/math/so3.hpp"
 
 namespace sinew {
 namespace group_test {

@@ -9,7 +9,7 @@
 
 #include "base/limits.hpp"
 #include "sanitizers.hpp"
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 
 namespace sinew {
 namespace linalg_test {

@@ -155,6 +155,7 @@ class Units(unittest.TestCase):
         track = planar.track([{"x": 0, "y": 0, "phi": 0}, {"x": 0.01, "y": 0, "phi": 0}]).units
         self.assertEqual((track["rows[].pose.x"], "rows[].indices.position" in track), ("m", False))
         self.assertNotIn("freedoms.platform", planar.describe().units)
+        self.assertEqual(planar.velocity(pose={"x": 0, "y": 0, "phi": 1.0471975511965976}).units.get("type_2.point"), "m")
 
 
 class Paths(unittest.TestCase):
@@ -166,7 +167,10 @@ class Paths(unittest.TestCase):
         self.assertGreater(path.tip.position[0], pulled.tip.position[0] + 1e-4)
         self.assertLess(path.rows[3].end_tensions[0][0], 3)
         self.assertGreater(path.friction_loss, 0)
-        self.assertEqual(path.units["rows[].friction_loss"], "J")
+        self.assertEqual((path.units["rows[].friction_loss"], path.units["rows[].changes"], "rows[].point" in path.units), ("J", "m", False))
+        moves = arm.track(points=[{"tensions": [[3, 0, 0, 0]]}], steps=4, want=["velocity"], motions=[[1, 0, 0, 0]])
+        units = moves.units
+        self.assertEqual((units["in_motion.changes"], "one_sided[].growing.changes" in units), ("m/s", False))
         rows = arm.prepare("track", points=[{"tensions": "$T"}], path="continue", outputs={"x": "tip.position[0]"})
         out = rows([[3, 0, 0, 0], [1, 0, 0, 0]])
         self.assertAlmostEqual(out.x[1], path.tip.position[0], 4)

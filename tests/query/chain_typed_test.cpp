@@ -3,7 +3,7 @@
 
 #include "sinew/analysis/singularity.hpp"
 #include "sinew/batch.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "sinew/robot.hpp"
 #include "sinew/solve.hpp"
 #include "sinew_query.hpp"

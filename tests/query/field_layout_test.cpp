@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "paths.hpp"
+#include "query/fields/answer_fields.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"
 
@@ -47,6 +52,47 @@ void compare(const Json& value, const std::string& place, const FieldLayouts& la
       compare(one, place.empty() ? key : place + '.' + key, layouts, unknown);
 }
 
+/// A number of each tendon, a list a section: of an arm, or of a platform on arms those of leg 0 first.
+Json by_tendons(const Json& described, const std::function<double(std::size_t)>& number) {
+  const Json arms = described["kind"] == "arm" ? Json{described} : [&] {
+    Json links = Json::array();
+    for (const Json& leg : described["legs"]) links.push_back(leg["link"]);
+    return links;
+  }();
+  Json lists = Json::array();
+  std::size_t count = 0;
+  for (const Json& arm : arms) {
+    std::vector<Json> sections(arm["sections"].size(), Json::array());
+    for (const Json& tendon : arm["tendons"])
+      sections[tendon["section"].get<std::size_t>()].push_back(number(count++));
+    for (Json& section : sections) lists.push_back(std::move(section));
+  }
+  return lists;
+}
+
+/// Questions about an arm, its path with friction among them, or about a platform on arms.
+std::vector<Json> questions_of_arms(const Json& described) {
+  const auto tensions = [&](double first) {
+    return by_tendons(described, [=](std::size_t i) { return i == 0 ? first : 0.5; });
+  };
+  const Json none = by_tendons(described, [](std::size_t) { return 0.0; });
+  const Json all{"pose", "shape", "stability", "stiffness", "velocity"};
+  std::vector<Json> asked{{{"query", "forward"}, {"changes", none}},
+                          {{"query", "velocity"}, {"changes", none}},
+                          {{"query", "forward"}, {"tensions", tensions(0.6)}, {"want", all}}};
+  Json track{{"query", "track"},
+             {"points", {{{"tensions", tensions(0.6)}}, {{"tensions", tensions(1)}}}},
+             {"steps", 2}};
+  if (described["kind"] == "arm") {
+    track["want"] = {"velocity", "shape"};
+    track["motions"] = by_tendons(described, [](std::size_t i) { return i == 0 ? 1.0 : 0.5; });
+  }
+  asked.push_back(track);
+  track["max_iterations"] = 1;  // it ends on its way: `reached`
+  asked.push_back(track);
+  return asked;
+}
+
 /// Questions about a robot near home.
 std::vector<Json> questions(const Json& described, Session& session) {
   if (described["kind"] == "serial") {
@@ -54,12 +100,7 @@ std::vector<Json> questions(const Json& described, Session& session) {
     return {{{"query", "forward"}, {"configuration", bends}},
             {{"query", "velocity"}, {"configuration", bends}, {"twist", {1e-3, 0, 0, 0, 0, 0}}}};
   }
-  if (described["kind"] == "arm") {
-    std::vector<Json> lengths(described["sections"].size(), Json::array());
-    for (const Json& tendon : described["tendons"])
-      lengths[tendon["section"].get<std::size_t>()].push_back(0);
-    return {{{"query", "forward"}, {"changes", lengths}}, {{"query", "velocity"}, {"changes", lengths}}};
-  }
+  if (described["kind"] == "arm" || described["kind"] == "arm_legs") return questions_of_arms(described);
   const Json& home = described["home"];
   std::vector<Json> all{{{"query", "inverse"}, {"pose", home}}, {{"query", "velocity"}, {"pose", home}}};
   for (const char* z : {"z"})  // three inputs hold three of its freedoms
@@ -97,6 +138,12 @@ TEST(FieldLayouts, AreThoseOfAnswersOfChains) {
   }
 }
 
+/// Lists that are as long as they are: the table says so.
+bool is_open(const std::string& name) {
+  const AnswerField* field = find_answer_field(name);
+  return field && field->shape == AnswerShape::list;
+}
+
 TEST(FieldLayouts, AreThoseOfAnswers) {
   std::set<std::string> unknown;
   for (const std::string_view name : builtin_robot_names()) {
@@ -110,7 +157,66 @@ TEST(FieldLayouts, AreThoseOfAnswers) {
               FieldLayouts(robot, question["query"].get<std::string>()), unknown);
     }
   }
+  std::erase_if(unknown, is_open);
   EXPECT_EQ(Json(unknown).dump(), "[]");
+}
+
+/// Notes the places of numbers of which the table says nothing.
+void look_up(const Json& value, const std::string& place, std::set<std::string>& unknown) {
+  if (value.is_number() && !find_answer_field(place)) unknown.insert(place);
+  if (value.is_array())
+    for (std::size_t i = 0; i < value.size(); ++i)
+      look_up(value[i], place + '[' + std::to_string(i) + ']', unknown);
+  if (value.is_object())
+    for (const auto& [key, one] : value.items())
+      if (key != "id") look_up(one, place.empty() ? key : place + '.' + key, unknown);
+}
+
+/// Questions that the fuzz target begins with: together they have every field.
+std::vector<Json> corpus_of(std::string_view robot) {
+  std::ifstream file(std::filesystem::path(test::source_folder) / "tests/fuzz/corpus/session" /
+                     (std::string(robot) + ".txt"));
+  std::vector<Json> queries;
+  std::string line;
+  for (std::getline(file, line); std::getline(file, line);) queries.push_back(Json::parse(line));
+  return queries;
+}
+
+TEST(AnswerFields, HaveEveryNumberOfEveryAnswer) {
+  std::size_t answers = 0, paths = 0;
+  for (const std::string_view name : builtin_robot_names()) {
+    SCOPED_TRACE(name);
+    Session session = Session::open(std::string(name)).value();
+    const Json described = Json::parse(session.answer(R"({"query": "describe"})"));
+    std::vector<Json> asked = questions(described, session);
+    for (Json& query : corpus_of(name)) asked.push_back(std::move(query));
+    for (const Json& query : asked) {
+      if (query["query"] == "describe" || query["query"] == "identify") continue;  // not in this table
+      const Json answer = Json::parse(session.answer(query.dump()));
+      std::set<std::string> unknown;
+      look_up(answer, "", unknown);
+      EXPECT_TRUE(unknown.empty()) << query << "\n" << Json(unknown);
+      answers += !answer.contains("error");
+      paths += answer.contains("one_sided") && answer.contains("in_motion");
+    }
+  }
+  EXPECT_GT(answers, 100U);
+  EXPECT_GT(paths, 0U);
+}
+
+TEST(AnswerFields, TellNumbersOfOneNameApart) {
+  const auto unit = [](const char* place) { return find_answer_field(place)->unit; };
+  EXPECT_EQ(unit("rows[3].point"), "");
+  EXPECT_EQ(unit("type_2.point[1]"), "m");
+  EXPECT_EQ(unit("point[0]"), "rad");  // of a diagram
+  EXPECT_EQ(unit("changes[0][2]"), "m");
+  EXPECT_EQ(unit("rows[1].changes[0][2]"), "m");
+  EXPECT_EQ(unit("in_motion.changes[0][2]"), "m/s");
+  EXPECT_EQ(unit("one_sided[4].growing.changes[0][2]"), "");
+  EXPECT_EQ(unit("one_sided[4].shrinking.tensions[0][2]"), "");
+  EXPECT_EQ(find_answer_field("rows[3].nothing"), nullptr);
+  EXPECT_EQ(find_answer_field("[3]"), nullptr);
+  EXPECT_EQ(find_answer_field("]x["), nullptr);
 }
 
 }  // namespace field_layout_test

@@ -2,7 +2,7 @@
 /// another implementation.
 #include <gtest/gtest.h>
 
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {

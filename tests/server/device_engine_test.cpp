@@ -13,7 +13,7 @@
 #include "device_way.hpp"
 #include "io/posture_table.hpp"
 #include "paths.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 
 namespace sinew::server::device {
 namespace device_engine_test {

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "long_fit.hpp"
 #include "sinew/session.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study_folder.hpp"
@@ -144,6 +145,50 @@ TEST(JobHttp, AStudyTellsHowFarItIsAndGivesItsTable) {
   desk.get("/api/jobs/" + job + "/events", {{"Last-Event-ID", "end"}});  // as a browser does by itself
   EXPECT_EQ(desk.status, 204);
   EXPECT_NE(desk.get("/api/version"), "");  // on the same connection
+}
+
+TEST(JobHttp, AFitTellsHowFarItIs) {
+  JobDesk desk;
+  const std::string job = desk.queries("ftdcr-v4", R"({"query": "describe"},)" + test::long_fit(200));
+  Listener listener(desk.port, job);
+  listener.listen();
+  ASSERT_EQ(listener.events.back().name, "done");
+  int told = 0, last = 0;
+  std::string part;
+  for (const Event& event : listener.events) {
+    if (event.name != "progress") continue;
+    const json data = json::parse(event.data);
+    EXPECT_EQ(data["total"], 2);
+    if (!data.contains("question")) continue;
+    const json& now = data["question"];
+    EXPECT_EQ(now["query"], "progress");
+    EXPECT_EQ(now["busy"], true);
+    EXPECT_EQ(data["done"], 1) << data;  // none is told of a question that is answered
+    EXPECT_TRUE(now["part"] != part || now["steps"].get<int>() >= last) << now;
+    EXPECT_GT(now["error"].get<double>(), 0);
+    part = now["part"];
+    last = now["steps"];
+    ++told;
+  }
+  EXPECT_GT(told, 0);
+  const json answers = json::parse("[" + listener.answers() + "]");
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(answers[1]["query"], "identify") << answers[1];
+  // The session goes on to serve others when the job is no more.
+  desk.cancel(job);
+  const std::string robot = desk.opened("ftdcr-v4");
+  EXPECT_NE(desk.post("/api/query?robot=" + robot, test::long_fit(12)).find("parameters"), std::string::npos);
+}
+
+TEST(JobHttp, AFitThatIsCancelledEndsAmidItsSteps) {
+  JobDesk desk;
+  const std::string job = desk.queries("ftdcr-v4", test::long_fit(3000));  // seconds
+  Listener listener(desk.port, job);
+  listener.listen("", 0, [&](const Event& event) {
+    if (event.name == "progress" && json::parse(event.data).contains("question")) desk.cancel(job);
+  });
+  EXPECT_EQ(listener.events.back().name, "cancelled");
+  EXPECT_EQ(listener.last()["done"], 0);
 }
 
 /// Queries that differ, some of them no good.

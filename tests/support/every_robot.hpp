@@ -6,8 +6,7 @@
 #include "io/serial_file.hpp"
 #include "planar_robots.hpp"
 #include "random_leg.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
 

@@ -7,7 +7,8 @@
 
 #include "paths.hpp"
 #include "sinew/analysis/identify.hpp"
-#include "sinew/io/measured_arm.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/io/table.hpp"
 #include "sinew/robot.hpp"
 
 namespace sinew::test {

@@ -9,7 +9,7 @@
 
 #include "leg/rod_leg.hpp"
 #include "robot/parallel.hpp"
-#include "sinew/leg/state.hpp"
+#include "sinew/link/state.hpp"
 
 namespace sinew::test {
 

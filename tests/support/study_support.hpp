@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study_folder.hpp"
 

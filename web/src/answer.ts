@@ -110,7 +110,7 @@ function ofArm({tensions, changes, compliance}: Json, described: Described, syst
   const pulls = barSection('Tensions', 'N', system, named(tensions), true);
   pulls.bars.forEach((bar, i) => { if (isSlack(named(tensions)[i]![1], {most: largest(tensions.flat())})) bar.text = 'slack'; });
   return [pulls, barSection('Tendon changes', 'm', system, named(changes)),
-          ...(compliance ? [barSection(`Compliance of the ${described.hasArmLegs ? 'platform' : 'tip'}`, 'm/N', system, ['x', 'y', 'z'].map((name, k) => [name, compliance[k][k]]), true)] : [])];
+          ...(compliance ? [barSection(`Compliance of the ${described.hasArmLegs ? 'platform' : 'tip'}`, 'm/N', system, (described.isPlanar ? ['x', 'y'] : ['x', 'y', 'z']).map((name, k) => [name, compliance[k][k]]), true)] : [])];
 }
 
 /** What pulls: forces of rods, tensions of chains, changes of a serial robot's tendons; of arcs how they bend. */

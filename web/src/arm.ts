@@ -8,8 +8,8 @@ import type {State} from './state';
 export type Held = 'tension' | 'change';
 export interface Holding { held: Held[]; rows: Record<Held, Row[]> }
 
-/** Of a load: force and moment at the tip, then the place of a second force and its parts. */
-const [tipParts, loadParts] = [6, 10];
+/** Of a load: so many numbers are the wrench on the tip or the platform. Then of a platform the leg, counted from one; the place of a second force and its parts; and of a platform a force along all legs. */
+export const wrenchParts = ({hasArmLegs, isPlanar}: {hasArmLegs: boolean; isPlanar: boolean}) => (hasArmLegs && isPlanar ? 3 : 6);
 
 /** Sliders go to where a tendon alone bends its arm by about so much [rad]; a number box takes more. */
 const bend = 2;
@@ -79,12 +79,17 @@ export function armLegsDescribed(described: Json): Described {
     tendons: legs.flatMap(({link}, leg) => link.tendons.map((one: Json) => ({...one, section: first(leg) + one.section}))),
   };
   const isPlanar = answer.space === 'planar', [forces, moments] = isPlanar ? [['Fx', 'Fy'], ['M']] : [['Fx', 'Fy', 'Fz'], ['Mx', 'My', 'Mz']];
-  const rows = rowsOf(answer), force = round((legs.length * 4 * stiffnessTo(answer, 0)) / answer.length ** 2);
+  const rows = rowsOf(answer), one = round((4 * stiffnessTo(answer, 0)) / answer.length ** 2), force = round((legs.length * 4 * stiffnessTo(answer, 0)) / answer.length ** 2), {length} = answer;
+  const axes = isPlanar ? ['x', 'y'] : ['x', 'y', 'z'], onLegs: Row[] = [
+    {name: 'leg', path: 'leg that a second force acts on, from 1', unit: '', low: 1, high: legs.length, home: 1, step: 1, limits: none},
+    {name: 's', path: 'place of the second force, from the base along the leg', unit: 'm', low: length / 100, high: length, home: length / 2, limits: none},
+    ...axes.map((axis) => ({...free(`P${axis}`, 'N', 0, one), path: 'force at s of the leg'})), ...axes.map((axis) => ({...free(`q${axis}`, 'N/m', 0, round(one / length)), path: 'force along all legs, by their length'})),
+  ];
   return {
     answer, isSerial: false, isArm: true, hasArmLegs: true, isPlanar, isHeldByFew: false, models: answer.models, canBend: false,
     hasGravity: (answer.gravity ?? []).some((part: number) => part !== 0),
     inputs: rows.tension, pose: platformRows(answer), holding: {held: rows.tension.map(() => 'tension'), rows},
-    load: [...forces.map((name) => free(name, 'N', 0, force)), ...moments.map((name) => free(name, 'N m', 0, round((force * answer.length) / 4)))],
+    load: [...forces.map((name) => free(name, 'N', 0, force)), ...moments.map((name) => free(name, 'N m', 0, round((force * answer.length) / 4))), ...onLegs],
   };
 }
 
@@ -123,14 +128,40 @@ export const tipOf = ({answer}: Described, tip: Json): number[] => (isTurned(ans
 /** Whether the tip can be dragged to a place. */
 export const canPlace = ({isArm, hasArmLegs, answer}: Described) => !isArm || hasArmLegs || !isTurned(answer);
 
-/** A force on the backbone beside that at the tip. */
-export function pointLoad({isArm}: Described, {load}: State): {place: number; force: number[]} | null {
-  const force = load.slice(tipParts + 1, loadParts);  // of a platform: nothing
-  return isArm && force.some((part) => part !== 0) ? {place: load[tipParts]!, force} : null;
+/** A force on the backbone beside that at the tip; of a platform on a leg, from 0. */
+export function pointLoad(described: Described, {load}: State): {leg: number; place: number; force: number[]} | null {
+  if (!described.isArm) return null;
+  const {hasArmLegs, isPlanar} = described, [first, ...rest] = load.slice(wrenchParts(described)) as [number, ...number[]], size = hasArmLegs && isPlanar ? 2 : 3;
+  const [place, ...force] = hasArmLegs ? rest : [first, ...rest];
+  const parts = force.slice(0, size);
+  return parts.some((part) => part !== 0) ? {leg: hasArmLegs ? Math.round(first) - 1 : 0, place: place!, force: parts} : null;
+}
+
+/** Of a platform a force along all legs, in space three numbers, by their length; null where there is none. */
+export function alongLegs(described: Described, {load}: State): number[] | null {
+  if (!described.hasArmLegs) return null;
+  const size = described.isPlanar ? 2 : 3, force = load.slice(wrenchParts(described) + 2 + size);
+  return force.some((part) => part !== 0) ? [...force, 0].slice(0, 3) : null;
+}
+
+/** Of a solved platform on arms where a search for it begins: the pose, and of each leg the curvatures of equal parts, which need not be exact. */
+export function fromShape({pose, curvatures: legs}: Json, parts = 16): Json | null {
+  if (!pose || !legs?.every((samples: unknown[]) => samples.length > 1)) return null;
+  const {tilt: _t, azimuth: _a, torsion: _s, ...place} = pose;
+  const at = (samples: (number | number[])[], share: number): number[] => {
+    const way = share * (samples.length - 1), i = Math.min(samples.length - 2, Math.floor(way)), part = way - i;
+    const [a, b] = [samples[i]!, samples[i + 1]!].map((one) => (Array.isArray(one) ? one : [0, one, 0])) as [number[], number[]];  // in the plane it is that about the second axis
+    return a.map((value, k) => Number((value + part * (b[k]! - value)).toPrecision(5)));
+  };
+  return {pose: place, curvatures: legs.map((samples: (number | number[])[]) => Array.from({length: parts}, (_, k) => at(samples, (k + 0.5) / parts)))};
 }
 
 /** Loads of a question to an arm. */
 export function loads(described: Described, state: State): Json {
-  const wrench = state.load.slice(0, tipParts), point = pointLoad(described, state);
-  return {...(wrench.some((part) => part !== 0) && {wrench}), ...(point && {loads: [{place: point.place, wrench: [...point.force, 0, 0, 0]}]})};
+  const wrench = state.load.slice(0, wrenchParts(described)), point = pointLoad(described, state), distributed = alongLegs(described, state);
+  const moment = point?.force.length === 2 ? [0] : [0, 0, 0];
+  return {
+    ...(wrench.some((part) => part !== 0) && {wrench}), ...(distributed && {distributed}),
+    ...(point && {loads: [{...(described.hasArmLegs && {leg: point.leg}), place: point.place, wrench: [...point.force, ...moment]}]}),
+  };
 }

@@ -2,7 +2,7 @@
 import {heldBy, loads, tipField} from './arm';
 import type {Json} from './client';
 import type {Described} from './described';
-import {bySection, everything, wrenchOf} from './questions';
+import {bySection, everything, forward, wrenchOf} from './questions';
 import type {Source} from './source';
 import type {State} from './state';
 
@@ -36,24 +36,26 @@ function quaternionOf([tilt = 0, azimuth = 0, torsion = 0]: number[]): number[] 
   return [c * Math.cos(torsion / 2), -s * Math.sin(half), s * Math.cos(half), c * Math.sin(torsion / 2)];
 }
 
-/** A path is a question of the protocol: the command takes it in one line. */
-function commandOfPath(source: Source, described: Described, state: State): string {
+/** A path, and the start of a platform on arms, are of the protocol: the command takes the question in one line. */
+function commandOfQuestion(source: Source, asked: Json): string {
   const set = Object.fromEntries(source.sets.map((one) => [one.slice(0, one.indexOf('=')), one.slice(one.indexOf('=') + 1)]));
-  const question = {...everything(described, state), ...(source.sets.length > 0 && {set})};
+  const question = {...asked, ...(source.sets.length > 0 && {set})};
   return `echo '${JSON.stringify(question).replaceAll("'", "'\\''")}' | sinew query ${/^[\w./-]+$/.test(source.word) ? source.word : quoted(source.word)}`;
 }
 
 /** @param start where the search has to begin so that it ends at this solution, as `--start` has it; else null */
 export function command(source: Source, described: Described, state: State, start: number[] | null): string {
-  if (state.path && state.asked === 'inputs') return commandOfPath(source, described, state);
+  if (state.path && state.asked === 'inputs') return commandOfQuestion(source, everything(described, state));
+  if (start && described.hasArmLegs) return commandOfQuestion(source, forward(described, state, state.start!));
   const isPose = state.asked === 'pose' && !described.isSerial && (!described.isArm || described.hasArmLegs) && !described.isPlanar && !described.isHeldByFew, robot = source.word;
   const told = isPose ? {...state, pose: [...state.pose.slice(0, 3), ...quaternionOf(state.pose.slice(3))]} : state;
   const words = ['sinew', state.asked === 'pose' ? 'inverse' : 'forward', /^[\w./-]+$/.test(robot) ? robot : quoted(robot),
                  asked(described, told, described.canBend ? state.bending : null)];
   if (start) words.push(`--start ${described.isArm ? lists(Array.from({length: start.length / 3}, (_, k) => start.slice(3 * k, 3 * k + 3))) : list(start)}`);
   if (state.model !== described.answer.model) words.push(`--model ${state.model}`);
-  const wrench = wrenchOf(described, state), more = described.isArm ? loads(described, state).loads : undefined;
+  const wrench = wrenchOf(described, state), {loads: more, distributed} = described.isArm ? loads(described, state) : {} as Json;
   if (wrench) words.push(`--wrench ${list(wrench)}`);
+  if (distributed) words.push(`--distributed ${list(distributed)}`);
   if (more) words.push(`--loads '${JSON.stringify(more)}'`);
   if (described.hasGravity && !state.gravity) words.push('--gravity "0, 0, 0"');
   if (state.iterations > 0) words.push(`--max-iterations ${state.iterations}`);

@@ -64,7 +64,7 @@ export class Controls {
     for (const [of, one] of this.ways) one.setAttribute('aria-pressed', String(!!holding && holding.held.every((each) => each === of)));
     this.sides.inputs.show(described.isSerial ? 'Bends (forward)' : described.isArm ? 'Tendons (forward)' : 'Inputs (forward)', described.inputs, state.inputs);
     this.sides.pose.show(hasTip ? 'Tip (inverse)' : 'Pose (inverse)', described.pose, state.pose);
-    this.sides.load.show(described.isArm && !described.hasArmLegs ? 'Load on the tip, and at s' : 'Load on the platform', described.load, state.load);
+    this.sides.load.show(described.hasArmLegs ? 'Load on platform and legs' : described.isArm ? 'Load on the tip, and at s' : 'Load on the platform', described.load, state.load);
     this.gravityChoice.hidden = !described.hasGravity;
     this.gravity.checked = state.gravity;
     this.remembers.hidden = !rubs(described);

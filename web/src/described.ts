@@ -11,6 +11,7 @@ export interface Row {
   high: number;
   home: number;
   limits: {low: boolean; high: boolean};  ///< whether these are limits of the robot, not only ends of the slider
+  step?: number;   ///< of a count: it has no values between
   other?: string;  ///< what a click on the unit does: the row has two quantities
 }
 

@@ -1,5 +1,5 @@
 // What is drawn of an answer.
-import {byTendons, canPlace, pointLoad} from './arm';
+import {alongLegs, byTendons, canPlace, pointLoad} from './arm';
 import type {Json} from './client';
 import type {Described} from './described';
 import {round} from './outline';
@@ -26,16 +26,32 @@ export function placeOn(shape: Json, place: number): Point {
   return plus(plus([0, 0, 0], points[i - 1]!, 1 - part), points[i]!, part);
 }
 
+/** The same on the line of a leg so long, whose points lie evenly on it. */
+function placeOnLeg(points: Point[], length: number, place: number): Point {
+  const way = Math.min(1, Math.max(0, place / length)) * (points.length - 1), i = Math.min(points.length - 2, Math.floor(way)), part = way - i;
+  return plus(plus([0, 0, 0], points[i]!, 1 - part), points[i + 1]!, part);
+}
+
+/** Where the forces on backbones act beside that at the tip; what acts along all legs is drawn in the middle of each. */
+function loadsOn(described: Described, state: State, answer: Json): {at: Point; force: Point}[] {
+  const point = pointLoad(described, state);
+  if (!described.hasArmLegs) return point && answer.places ? [{at: placeOn(answer, point.place), force: point.force}] : [];
+  const along = alongLegs(described, state), lengthOf = (leg: number): number => described.answer.legs[leg].link.length, legs: Point[][] = answer.backbones ?? [];
+  const on = (leg: number, place: number, force: Point) => ({at: placeOnLeg(legs[leg]!, lengthOf(leg), place), force});
+  return [...(point && legs[point.leg] ? [on(point.leg, point.place, point.force)] : []),
+          ...(along ? legs.map((_, leg) => on(leg, lengthOf(leg) / 2, along.map((part) => part * lengthOf(leg)))) : [])];
+}
+
 /** The next of 1, 2, 4, 5 times a power of ten: colours stay the same while tensions change a little. */
 const above = (value: number) => (value > 0 ? [1, 2, 2.5].map((step) => step * round(value)).find((most) => most >= value * (1 - 1e-9))! : 1);
 
 function ofArm(described: Described, state: State, answer: Json): Partial<Drawing> {
-  const {tensions, slack, places} = answer, point = pointLoad(described, state);
+  const {tensions, slack} = answer, loads = loadsOn(described, state, answer);
   let from = 0;
   const names = described.hasArmLegs ? [] : (described.answer.sections as Json[]).map(({length}, i) => ({text: `S${i + 1}`, at: placeOn(answer, (from += length) - length / 2)}));
   return {
     canGrab: canPlace(described), names, ...(tensions && {pulls: {tensions, slack, most: above(Math.max(...tensions.flat(), ...(answer.tensions_along ?? []).flat())), ...(answer.tensions_along && {along: byTendons(described.answer, answer.tensions_along as number[][])})}}),
-    ...(point && places && {loads: [{at: placeOn(answer, point.place), force: point.force}]}),
+    ...(loads.length > 0 && {loads}),
   };
 }
 

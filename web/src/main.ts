@@ -2,7 +2,7 @@
 import './app.css';
 import './operate/operate.css';
 import {AnswerPanel, withUnit} from './answer';
-import {canPlace, type Held, heldIn} from './arm';
+import {canPlace, fromShape, type Held, heldIn} from './arm';
 import {type Json, Lost, Newest, Refused, Robot, plan as planOf, plans, robots, robotText, type Shipped, version} from './client';
 import {copy} from './clipboard';
 import {command} from './command';
@@ -494,7 +494,7 @@ class Page {
   private turn(side: Side | 'load', index: number, value: number): void {
     const values = [...this.state[side]];
     values[index] = value;
-    this.touched = {side, index};
+    if (!this.described?.[side][index]?.step) this.touched = {side, index};  // over a count there is no curve
     this.change({[side]: values, ...(side !== 'load' && {asked: side}), ...(side === 'inputs' && {bending: null})}, false, `${side} ${index}`);
     this.controls.put(side, values);
   }
@@ -626,6 +626,7 @@ class Page {
   private solved(answer: Json, picture: Json, state: State, question: number, isNear: boolean, begin: number): void {
     const described = this.described!, pose = poseOf(described, answer), {rival} = this;
     if (answer.pose && !described.isArm) state.start = plain(answer.pose);
+    if (described.hasArmLegs && state.start) state.start = fromShape(answer) ?? state.start;  // a solution that was chosen is followed
     if (isNear) this.state.start = state.start;
     if (isNear && this.state.path && state.path) this.state.path = structuredClone(state.path);
     if (state.asked === 'inputs' && pose) state.pose = pose;
@@ -702,7 +703,7 @@ class Page {
     const {name, unit} = described[touched.side][touched.index]!, here = state[touched.side][touched.index]!;
     Object.assign(shown.answer, found, {room: this.strip.room().map(({word, to}) => ({name, unit, word, by: to - here}))});
     this.write();
-    await this.solutions.offer(robot, described, state, state.start);
+    await this.solutions.offer(robot, described, state, described.hasArmLegs ? plain(shown.answer.pose) : state.start);
   }
 
   /** The value nearest to what has no solution, as a button. */

@@ -39,10 +39,10 @@ const isSame = (a: number[], b: number[]) => a.every((value, i) => Math.abs(valu
  * @param answer of `forward`
  */
 export async function startOf(robot: Robot, described: Described, state: State, answer: Json): Promise<number[] | null> {
-  if (described.hasArmLegs) return null;
   if (described.isArm) {  // its search begins at rest, or at a shape that was chosen
     if (!state.start || state.asked === 'pose') return null;
     const [plainly] = await robot.ask([forward(described, state)]) as [Json];
+    if (described.hasArmLegs) return plainly.pose && isSame(numbersOf(plainly.pose), numbersOf(answer.pose)) ? null : numbersOf(state.start);
     return plainly.tip && isSame(plainly.tip.position, answer.tip.position) ? null : numbersOf(state.start);
   }
   if (state.asked === 'inputs') {

@@ -1,5 +1,5 @@
 // Queries of a state, and what their answers say of it. The one place that knows how each kind of robot is asked.
-import {heldBy, heldIn, loads, tipField, tipOf} from './arm';
+import {heldBy, heldIn, loads, tipField, tipOf, wrenchParts} from './arm';
 import type {Json} from './client';
 import {bearsLoad, type Described, indexOf} from './described';
 import {here, trackOf, walked} from './remembered';
@@ -7,7 +7,7 @@ import type {Side, State} from './state';
 
 /** The wrench on the platform, or on an arm's tip; null where there is none, or the links bear none. */
 export function wrenchOf(described: Described, state: State): number[] | null {
-  const wrench = described.isArm ? state.load.slice(0, 6) : state.load;
+  const wrench = described.isArm ? state.load.slice(0, wrenchParts(described)) : state.load;
   return bearsLoad(described, state.model) && wrench.some((part) => part !== 0) ? wrench : null;
 }
 
@@ -32,9 +32,9 @@ export function bySection(described: Described, values: number[]): number[][] {
   return sections;
 }
 
-/** Inputs, and where a search for the pose begins: a pose, of an arm the curvatures of its parts, `last`, or at home. */
+/** Inputs, and where a search for the pose begins: a pose, of an arm the curvatures of its parts, of a platform on arms both, `last`, or at home. */
 export function given(described: Described, state: State, start?: Json | string): Json {
-  if (described.isArm) return {...heldBy(described, state.inputs), ...(Array.isArray(start) && {start}), ...common(described, state)};
+  if (described.isArm) return {...heldBy(described, state.inputs), ...((Array.isArray(start) || (start as Json | undefined)?.curvatures) && {start}), ...common(described, state)};
   if (described.isSerial) return {configuration: bySection(described, state.inputs), ...common(described, state)};
   return {inputs: state.inputs, ...(start && {start}), ...common(described, state)};
 }

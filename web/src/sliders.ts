@@ -60,7 +60,7 @@ export class Sliders {
   private row(row: Row, i: number): HTMLElement {
     const id = `${this.id}-${i}`, marks = make('datalist', {id: `${id}-marks`});
     const box = make('input', {id, inputMode: 'decimal', autocomplete: 'off'}), unit = row.other ? button('', () => this.told.switched(i), row.other) : make('span');
-    const range = make('input', {type: 'range', min: String(row.low), max: String(row.high), step: 'any'}), why = make('span', {className: 'why'});
+    const range = make('input', {type: 'range', min: String(row.low), max: String(row.high), step: String(row.step ?? 'any')}), why = make('span', {className: 'why'});
     const label = make('label', {htmlFor: id, title: row.path}, row.name);
     for (const mark of new Set([row.low, row.home, row.high])) marks.append(make('option', {value: String(mark)}));
     range.setAttribute('aria-label', row.name);
@@ -95,8 +95,8 @@ export class Sliders {
   }
 
   private step(i: number, hundredths: number): void {
-    const {low, high} = this.rows[i]!, value = this.values[i]!;
-    this.set(i, Math.min(Math.max(high, value), Math.max(Math.min(low, value), value + hundredths * (high - low) / 100)));
+    const {low, high, step} = this.rows[i]!, value = this.values[i]!, by = step ? Math.sign(hundredths) * step : hundredths * (high - low) / 100;
+    this.set(i, Math.min(Math.max(high, value), Math.max(Math.min(low, value), value + by)));
   }
 
   /** Arrows are a hundredth of the range, with Shift ten times as much, with Alt a tenth. A digit opens the box. */
@@ -131,14 +131,15 @@ export class Sliders {
     box.setSelectionRange(1, 1);
   }
 
-  private set(i: number, value: number): void {
+  private set(i: number, given: number): void {
+    const {step} = this.rows[i]!, value = step ? step * Math.round(given / step) : given;
     this.values[i] = value;
     this.write(i);
     this.told.changed(i, value);
   }
 
   private write(i: number): void {
-    const value = this.values[i]!, {unit} = this.rows[i]!, {box, range, why} = this.lines[i]!, text = format(value, unit, this.system);
+    const value = this.values[i]!, {unit, step} = this.rows[i]!, {box, range, why} = this.lines[i]!, text = step ? String(value) : format(value, unit, this.system);
     if (box.dataset.typed === undefined) {  // else somebody is writing there
       box.value = text;
       box.removeAttribute('aria-invalid');

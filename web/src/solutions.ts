@@ -9,7 +9,7 @@ import {numbersOf, type State} from './state';
 const most = 12;       // pictures
 const patience = 300;  // ms that a search may take to be made unasked
 
-/** A pose, of an arm the curvatures of its parts, with the inputs that belong to it. */
+/** A pose, of an arm the curvatures of its parts, of a platform on arms both, with the inputs that belong to it. */
 export interface Solution { inputs: number[]; pose: Json | null }
 
 interface Found { solution: Solution; answer: Json; number: number; isShown: boolean }
@@ -23,7 +23,7 @@ const sameArm = 1e-3;
 const isSlow = ({isArm}: Described, {model}: State) => !isArm && model === 'rod';
 
 /** Of an arm's parts [1/m], as a link holds them: where a search begins they need not be exact. */
-const rounded = (curvatures: number[][]) => curvatures.map((part) => part.map((one) => (Math.abs(one) < 1e-4 ? 0 : Number(one.toPrecision(5)))));
+const rounded = (curvatures: number[][]): number[][] => curvatures.map((part) => part.map((one) => (Math.abs(one) < 1e-4 ? 0 : Number(one.toPrecision(5)))));
 
 export class Solutions {
   private readonly title = make('h3');
@@ -60,9 +60,9 @@ export class Solutions {
   async offer(robot: Robot, described: Described, state: State, pose: Json | null): Promise<void> {
     this.clear();
     const isInverse = state.asked === 'pose';
-    const {isArm} = described, hasNone = described.isSerial || described.hasArmLegs || (isArm ? isInverse || state.path !== null : state.model !== described.answer.model || (isInverse && state.model === 'rod'));
+    const {isArm} = described, hasNone = described.isSerial || (isArm ? isInverse || state.path !== null : state.model !== described.answer.model || (isInverse && state.model === 'rod'));
     if (hasNone) return void (this.title.textContent = '');
-    const shown = isInverse ? state.inputs : isArm ? state.pose : pose ? numbersOf(pose) : [];
+    const shown = isInverse ? state.inputs : isArm && !described.hasArmLegs ? state.pose : pose ? numbersOf(pose) : [];
     const key = `${described.answer.robot} ${isInverse}`;
     this.asked = async () => {
       const begin = performance.now(), {run} = this;
@@ -107,7 +107,7 @@ export class Solutions {
     const [all] = await (isSlow(described, state) ? robot.work([query], this.searching.signal) : robot.ask([query])) as [Json];
     if (run !== this.run) return;
     const distance = ({inputs, pose}: Solution, answer: Json) => {
-      const values = isInverse ? inputs : described.isArm ? poseOf(described, answer) ?? [] : pose ? numbersOf(pose) : [];
+      const values = isInverse ? inputs : described.hasArmLegs ? numbersOf(plain(answer.pose)) : described.isArm ? poseOf(described, answer) ?? [] : pose ? numbersOf(pose) : [];
       return Math.max(...values.map((value, i) => Math.abs(value - (shown[i] ?? value))));
     };
     const solutions = ((all.solutions ?? []) as Json[]).map((answer, i) => ({answer, number: i + 1, solution: this.solutionOf(all, answer, state)}));
@@ -119,6 +119,7 @@ export class Solutions {
   }
 
   private solutionOf(all: Json, one: Json, state: State): Solution {
+    if (one.curvatures && one.pose) return {inputs: state.inputs, pose: {pose: plain(one.pose), curvatures: one.curvatures.map(rounded)}};
     if (one.curvatures) return {inputs: state.inputs, pose: rounded(one.curvatures)};
     return {inputs: one.inputs ?? state.inputs, pose: one.pose ? plain(one.pose) : all.pose ? plain(all.pose) : null};
   }

@@ -1,5 +1,5 @@
 // What the page asks: all that a link holds and that undo brings back.
-import type {Held} from './arm';
+import {type Held, wrenchParts} from './arm';
 import type {Json} from './client';
 import {type Described, holding, type Row} from './described';
 
@@ -18,7 +18,7 @@ export interface State {
   samples: number;     ///< points of each curve; 0: as many as is usual
   iterations: number;  ///< at most; 0: as many as is usual
   path: Json[] | null;  ///< of an arm whose tendons rub: how it came here, point by point; null: as if they did not rub
-  start: Json | null;  ///< the pose near which that of the inputs is looked for, the last solved or a chosen one, of an arm the curvatures of its parts in a chosen one; null: home
+  start: Json | null;  ///< the pose near which that of the inputs is looked for, the last solved or a chosen one, of an arm the curvatures of its parts in a chosen one, of a platform on arms both; null: home
 }
 
 export const homes = (rows: Row[]) => rows.map((row) => row.home);
@@ -32,8 +32,8 @@ export function stateOf(described: Described): State {
 
 const numbers = (text: string | null) => text?.split(',').map(Number);
 
-/** A pose, or the curvatures of an arm's parts, as a list, as links and commands have it. */
-export const numbersOf = (pose: Json): number[] => (Array.isArray(pose) ? pose.flat() : pose.position ? [...pose.position, ...(pose.quaternion ?? [])] : [pose.x, pose.y, pose.phi]);
+/** A pose, or the curvatures of an arm's parts, or of a platform on arms both, as a list, as links and commands have it. */
+export const numbersOf = (pose: Json): number[] => (Array.isArray(pose) ? pose.flat() : pose.curvatures ? [...numbersOf(pose.pose), ...pose.curvatures.flat(2)] : pose.position ? [...pose.position, ...(pose.quaternion ?? [])] : [pose.x, pose.y, pose.phi]);
 
 function poseOf(values: number[] | undefined, isPlanar: boolean): Json | null {
   if (values?.length !== (isPlanar ? 3 : 7) || !values.every(Number.isFinite)) return null;
@@ -45,6 +45,13 @@ function poseOf(values: number[] | undefined, isPlanar: boolean): Json | null {
 function partsOf(values: number[] | undefined): Json | null {
   if (!values || values.length === 0 || values.length % 3 !== 0 || !values.every(Number.isFinite)) return null;
   return Array.from({length: values.length / 3}, (_, k) => values.slice(3 * k, 3 * k + 3));
+}
+
+/** Of a platform on arms its pose, then the curvatures of each leg's parts. */
+function ofLegs(values: number[] | undefined, legs: number, isPlanar: boolean): Json | null {
+  const size = isPlanar ? 3 : 7, pose = poseOf(values?.slice(0, size), isPlanar), parts = partsOf(values?.slice(size)), each = (parts?.length ?? 0) / legs;
+  if (!pose || !parts || !Number.isInteger(each)) return null;
+  return {pose, curvatures: Array.from({length: legs}, (_, leg) => parts.slice(leg * each, (leg + 1) * each))};
 }
 
 /** `tc`: what holds the first tendon of an arm is a tension, of the second a change of its length. */
@@ -64,7 +71,8 @@ export function fromLink(link: URLSearchParams, described: Described): State {
   const state = stateOf(described);
   const take = (key: 'inputs' | 'pose' | 'load') => {
     const values = numbers(link.get(key));
-    if (values?.length === state[key].length && values.every(Number.isFinite)) state[key] = values;
+    const isShort = key === 'load' && described.hasArmLegs && values?.length === wrenchParts(described);  // of older links
+    if ((values?.length === state[key].length || isShort) && values?.every(Number.isFinite)) state[key] = [...values, ...state[key].slice(values.length)];
   };
   take('inputs');
   take('pose');
@@ -74,7 +82,7 @@ export function fromLink(link: URLSearchParams, described: Described): State {
   const bending = numbers(link.get('bending'));
   if (bending?.length === described.answer.legs?.length && bending?.every((sign) => Math.abs(sign) === 1)) state.bending = bending;
   const start = numbers(link.get('start'));
-  state.start = described.isSerial ? null : described.isArm ? partsOf(start) : poseOf(start, described.isPlanar);
+  state.start = described.isSerial ? null : described.hasArmLegs ? ofLegs(start, described.answer.legs.length, described.isPlanar) : described.isArm ? partsOf(start) : poseOf(start, described.isPlanar);
   state.gravity = link.get('gravity') !== 'off';
   for (const key of ['joints', 'samples', 'iterations'] as const) state[key] = Math.max(0, Math.floor(Number(link.get(key)) || 0));
   return state;

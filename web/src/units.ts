@@ -1,6 +1,6 @@
 // Answers are SI and radians; people read millimetres and degrees unless they ask for SI.
 
-export type Unit = 'm' | 'rad' | 'N' | 'N m' | '1/m' | 'm/N' | 'J' | '';
+export type Unit = 'm' | 'rad' | 'N' | 'N m' | '1/m' | 'm/N' | 'N/m' | 'J' | '';
 export type System = 'mm' | 'SI';
 
 interface Shown { factor: number; name: string; digits: number }
@@ -12,6 +12,7 @@ const shown: Record<Unit, Record<System, Shown>> = {
   'N m': {mm: {factor: 1, name: 'N m', digits: 4}, SI: {factor: 1, name: 'N m', digits: 4}},
   '1/m': {mm: {factor: 1, name: '1/m', digits: 3}, SI: {factor: 1, name: '1/m', digits: 3}},
   'm/N': {mm: {factor: 1e3, name: 'mm/N', digits: 2}, SI: {factor: 1, name: 'm/N', digits: 5}},
+  'N/m': {mm: {factor: 1, name: 'N/m', digits: 3}, SI: {factor: 1, name: 'N/m', digits: 3}},
   J: {mm: {factor: 1, name: 'J', digits: 4}, SI: {factor: 1, name: 'J', digits: 4}},
   '': {mm: {factor: 1, name: '', digits: 5}, SI: {factor: 1, name: '', digits: 5}},
 };
@@ -24,7 +25,7 @@ const written: Record<string, [Unit, number]> = {
 };
 
 const kinds: Record<Unit, string> =
-  {m: 'length', rad: 'angle', N: 'force', 'N m': 'moment', '1/m': 'curvature', 'm/N': 'compliance', J: 'energy', '': 'this number'};
+  {m: 'length', rad: 'angle', N: 'force', 'N m': 'moment', '1/m': 'curvature', 'm/N': 'compliance', 'N/m': 'force per length', J: 'energy', '': 'this number'};
 
 export function unitName(unit: Unit, system: System): string {
   return shown[unit][system].name;

@@ -349,3 +349,89 @@ export async function arm_legs(browser, url) {
   assert.match(await command(page), /^sinew inverse \S+ --pose "0\.003, /);
   await done();
 }
+
+/** The command's answer. */
+const printed = async (page) => JSON.parse(execFileSync('/bin/sh', ['-c', (await command(page)).replace(/(^|\| )sinew/, `$1'${sinew}'`) + ((await command(page)).startsWith('echo') ? '' : ' --json')], {encoding: 'utf8'}));
+
+/** Legs of a platform on arms bear forces of their own, one at a place and one along all: arrows, links and the command have them. */
+export async function arm_legs_loads(browser, url) {
+  const {page, done} = await open(browser, url, 'tripod-two-section'), arrows = async () => (await page.locator('#view .label.load:visible').allInnerTexts()).sort();
+  const place = async () => (await said(page)).pose.position;
+  await tab(page, 'Load');
+  assert.equal(await page.locator('#load .row').count(), 14);
+  assert.equal(await page.locator('#load h2').first().innerText(), 'Load on platform and legs');
+  assert.equal(await page.locator('#load-6').inputValue(), '1');
+  const [before, seen] = [await place(), await picture(page)];
+  await then(page, () => fill(page, 'load-8', '0.05'));
+  const first = await place();
+  await then(page, () => fill(page, 'load-6', '2'));
+  assert.ok(Math.hypot(...(await place()).map((part, i) => part - first[i])) > 1e-5, 'on which leg it acts does not matter');
+  await then(page, () => fill(page, 'load-7', '60'));
+  assert.deepEqual(await arrows(), ['0.05 N']);
+  assert.match(await command(page), / --loads '\[{"leg":1,"place":0\.06,"wrench":\[0\.05,0,0,0,0,0\]}\]'$/);
+  near((await printed(page)).pose.position, await place(), 1e-9, 'the command');
+  await then(page, () => fill(page, 'load-13', '-0.5'));
+  assert.equal((await arrows()).length, 4);
+  assert.match(await command(page), / --distributed "0, 0, -0\.5" --loads /);
+  near((await printed(page)).pose.position, await place(), 1e-9, 'the command');
+  await then(page, () => page.locator('#load input[type=range]').nth(6).press('ArrowRight'));  // a leg on, not a hundredth of one
+  assert.equal(await page.locator('#load-6').inputValue(), '3');
+  await rested(page);
+  await looks(page, 'arm-legs-loads');
+  const second = await blank(browser);
+  await second.page.goto(await linked(page));
+  await settled(second.page, 0);
+  near((await said(second.page)).pose.position, await place(), 1e-6, 'a link leads elsewhere');
+  await second.done();
+  await then(page, () => fill(page, 'load-6', '7'));
+  assert.equal(await verdict(page), 'REFUSED');
+  assert.match(await page.locator('#verdict .reason').innerText(), /loads\[0\]\.leg/);
+  await then(page, () => page.getByRole('button', {name: 'Zero'}).click());
+  near(await place(), before, 1e-9, 'without its loads');
+  await page.evaluate(() => document.activeElement.blur());
+  same(await picture(page), seen, 'the picture without its loads');
+  await then(page, () => page.goto(`${url}#robot=3-rfr-two-section&load=0,0,0,2,0.08,0.1,0,0,0.5`));
+  assert.match(await command(page), / --distributed "0, 0\.5, 0" --loads '\[{"leg":1,"place":0\.08,"wrench":\[0\.1,0,0\]}\]'$/);
+  assert.match(await verdict(page), /^SOLVED/);
+  await looks(page, 'arm-legs-loads-plane');
+  await done(/422|400/);
+}
+
+/** Other equilibria of a platform on arms are small pictures to go to, and are followed from there. */
+export async function arm_legs_solutions(browser, url) {
+  const {page, done} = await open(browser, url, '3-rfr-two-section'), cards = page.locator('#solutions .small'), title = page.locator('#solutions h3');
+  const here = async () => { const {x, y, phi} = (await said(page)).pose; return [x, y, phi]; };
+  const look = async () => {
+    await rested(page);
+    const search = page.getByRole('button', {name: 'Look for others'});
+    if (await search.isVisible()) await search.click();
+    await title.filter({hasText: 'Solutions (at least'}).waitFor();
+  };
+  await look();
+  assert.equal(await page.locator('#solutions .small[aria-current=true]').count(), 1);
+  assert.match(await numbers(page), /Compliance of the platform \[mm\/N\]\s+x\s+[\d.]+\s+y\s+[\d.]+(?!\s+z)/);
+  await cards.last().scrollIntoViewIfNeeded();
+  await looks(page, 'arm-legs-solutions');
+  assert.doesNotMatch(await command(page), /start/);
+  const before = await here();
+  await then(page, () => cards.filter({hasNotText: 'shown'}).first().click());
+  await look();
+  const there = await here();
+  assert.ok(Math.abs(there[2] - before[2]) > 0.1, 'it stayed where it was');
+  assert.match(await verdict(page), /^SOLVED, STABLE/);
+  assert.match(await command(page), /^echo '{"query":"forward",.*"start":{"pose":{"x":/);
+  const {pose} = await printed(page);
+  near([pose.x, pose.y, pose.phi], there, 1e-6, 'the command');
+  const second = await blank(browser);
+  await second.page.goto(await linked(page));
+  await settled(second.page, 0);
+  await rested(second.page);
+  const led = (await said(second.page)).pose;
+  near([led.x, led.y, led.phi], there, 1e-6, 'a link leads elsewhere');
+  await second.done();
+  for (const tension of ['0.6', '0.7', '0.8']) await then(page, () => fill(page, 'inputs-0', tension));
+  assert.ok(Math.abs((await here())[2] - there[2]) < 0.3, 'it left its branch');
+  for (let i = 0; i < 4 && Math.abs((await here())[2] - before[2]) > 0.1; ++i) await then(page, () => page.locator('#undo').click());
+  near(await here(), before, 1e-6, 'undo leads back');
+  await done();
+}

@@ -10,7 +10,6 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/robot/arm.hpp"
 #include "sinew/solve/report.hpp"
 

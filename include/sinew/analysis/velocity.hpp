@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "sinew/kinematics/constrained_pose.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "sinew/math/vec.hpp"
 #include "sinew/robot/assembly.hpp"
 

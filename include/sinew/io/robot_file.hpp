@@ -55,4 +55,10 @@ SINEW_API Expected<Document> with(const Document& document, const std::string& p
 /// then wins, whatever their order.
 SINEW_API Expected<Document> with(const Document& document, std::span<const Member> settings);
 
+/// The text of a file that reads as this arm: numbers in SI with all their digits, backbones by their
+/// stiffness, every tendon by itself. Codes: `not_available` where a file cannot say it, and those of
+/// `read_arm` where it is no arm.
+/// @param comments lines at the top, without the `#`
+SINEW_API Expected<std::string> arm_text(const Arm& arm, std::span<const std::string> comments = {});
+
 }  // namespace sinew::inline v1

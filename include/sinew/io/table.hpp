@@ -7,6 +7,7 @@
 ///     59,1,0.03,1.0471975511965976,
 ///
 /// Comma, `\n`, the shortest digits that read back as the same number; an empty cell where there is no value.
+/// Then tables of measured rows, from which an arm is identified. Format: docs/identify.md
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -19,6 +20,9 @@
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {
+
+struct Arm;           // robot/arm.hpp
+struct MeasuredRows;  // analysis/identify.hpp
 
 /// One column. A value that is not finite is missing.
 struct Column {
@@ -72,5 +76,17 @@ SINEW_API Expected<Table> read_csv(const std::filesystem::path& path);
 
 /// Write a whole file, making the folders above it. Codes: `file_unwritable`.
 SINEW_API Expected<void> write_text(std::string_view text, const std::filesystem::path& path);
+
+/// Measured rows in a table with the columns `sections[0].tendons[0][mm]` for each tendon, drawn in where
+/// positive, `x[mm]`, `y[mm]`, `z[mm]` of the marker, and, where wanted, `time[s]` and `block`. Units may be
+/// others of their kind; columns of other names are left aside. Codes: `missing_column`, `missing_unit`,
+/// `wrong_dimension`, `unknown_unit`, `not_a_number`, `not_whole`, `out_of_range`, `not_in_order`,
+/// `too_many_tendons`, `no_rows`.
+/// @param file names the table in errors
+SINEW_API Expected<MeasuredRows> read_measured_rows(const Table& table, const Arm& arm,
+                                                    const std::string& file);
+
+/// The same rows as a table in mm and s.
+SINEW_API Table measured_table(const MeasuredRows& rows, const Arm& arm);
 
 }  // namespace sinew::inline v1

@@ -1,7 +1,9 @@
 /// @file trajectory.hpp
 /// When a serial robot on a linear stage is where: the quickest motion along given postures within limits of
-/// speed and acceleration. Theory: docs/theory/trajectory.md
+/// speed and acceleration; and follow-the-leader, by which its body stays on the curve that its tip draws.
+/// Theory: docs/theory/trajectory.md
 #pragma once
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -56,5 +58,33 @@ SINEW_API Trajectory time_optimal_trajectory(const SerialRobot& robot,
 
 /// Most points that a trajectory may have.
 inline constexpr std::size_t trajectory_point_limit = 1'000'000;
+
+/// Follow-the-leader: a serial robot on a stage advances along the curve that its tip draws.
+/// The curve is kept as bend per length; a section takes the mean of what it lies on. The base moves on a
+/// straight line, so the body stays on the curve as far as the curve began straight; where the robot was bent
+/// at its base, it leaves it there. Extensible sections stay at rest length.
+class SINEW_API FollowTheLeader {
+ public:
+  /// Without a curve: `begin` comes before `advance`.
+  explicit FollowTheLeader(const SerialRobot& robot);
+
+  /// The curve is where the robot is.
+  /// @param bends of every section [rad]
+  void begin(std::span<const Bend> bends);
+  /// Bends of every section [rad] once the stage is further by `way` [m], >= 0.
+  /// @param leader bend of the last section, which the new end of the curve has [rad]
+  std::vector<Bend> advance(double way, const Bend& leader);
+
+ private:
+  struct Piece {
+    double end;         ///< [m] from the base
+    Vec2<double> bend;  ///< per length [rad/m]
+  };
+  Vec2<double> mean(double from, double to) const;
+
+  std::vector<double> ends_;    ///< of the sections, from the base [m]
+  std::vector<double> shares_;  ///< bend of a section where the curve bends by 1 rad/m
+  std::deque<Piece> curve_;     ///< from the base to the tip
+};
 
 }  // namespace sinew::inline v1

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/kinematics/trajectory.hpp"
 #include "sinew/plan/scene.hpp"
 #include "sinew/solve/report.hpp"

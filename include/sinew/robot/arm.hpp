@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/math/vec.hpp"
 #include "sinew/robot/serial.hpp"
+#include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {
 

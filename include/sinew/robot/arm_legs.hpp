@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/robot/arm.hpp"
+#include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {
 

@@ -10,11 +10,10 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
-#include "sinew/leg/state.hpp"
-#include "sinew/link/prb_discretisation.hpp"
+#include "sinew/link/state.hpp"
 #include "sinew/math/se2.hpp"
 #include "sinew/math/se3.hpp"
+#include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {
 

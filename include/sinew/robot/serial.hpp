@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/kernel/direction.h"
 #include "sinew/kernel/section.h"
 #include "sinew/math/se3.hpp"
+#include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {
 

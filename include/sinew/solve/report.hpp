@@ -1,8 +1,10 @@
 /// @file report.hpp
-/// What a solver says of its answer. A solver that does not converge is an answer, never an exception.
+/// What a solver says of its answer, and how it is asked to stop. A solver that does not converge is an
+/// answer, never an exception.
 #pragma once
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -94,6 +96,20 @@ struct TraceStep {
   int iteration;
   double residual;  ///< largest closure error [m]
   double step;      ///< fraction of the Newton step taken to get here; 0 for the start
+};
+
+/// A request to stop: view of a flag that another thread or a signal handler may set. Long solves look at it
+/// now and then and answer `Status::stopped`; what they return is the best they have. The default token is
+/// never asked to stop.
+class StopToken {
+ public:
+  StopToken() = default;
+  explicit StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}  ///< the flag must outlive the token
+  /// Whether the flag is set; from any thread.
+  bool stop_requested() const noexcept { return flag_ && flag_->load(std::memory_order_relaxed); }
+
+ private:
+  const std::atomic<bool>* flag_ = nullptr;
 };
 
 }  // namespace sinew::inline v1

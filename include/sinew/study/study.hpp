@@ -1,9 +1,11 @@
 /// @file study.hpp
 /// Study files: one query put at many samples. Axes name what varies, outputs what is kept of the answers;
-/// reductions and fits say what is made of them. Format: docs/studies.md
+/// reductions and fits say what is made of them; and files of results as tables: a line a sample, the axes
+/// written out. Format: docs/studies.md
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <span>
@@ -13,6 +15,7 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/io/node.hpp"
+#include "sinew/io/table.hpp"
 
 namespace sinew::inline v1 {
 
@@ -131,5 +134,17 @@ SINEW_API std::string_view builtin_study(std::string_view name);  ///< empty whe
 /// `bad_term`, `later_column`, `unused_coefficient`, ...
 /// @param set changes of the robot, `{path: value}`, over the study's own
 SINEW_API Expected<Study> read_study(const std::string& path_or_name, std::span<const Member> set = {});
+
+/// An HDF5 file as `sweep` writes it, or any whose root has columns of numbers of one shape, with dimension
+/// scales or without: axes first, then columns in the order of their creation; `status` is its code. Codes:
+/// `file_missing`, `file_unreadable`, `no_columns`.
+SINEW_API Expected<Table> read_hdf5(const std::filesystem::path& path);
+
+/// A file of results by its ending: `.h5` or `.csv`.
+SINEW_API Expected<Table> read_result(const std::filesystem::path& path);
+
+/// Writes one, by its ending: `.h5` or `.csv`. The first comment of the table is its title, others like
+/// `seed: 3` are facts of its provenance. Codes: `unknown_format`, `file_unwritable`, `write_failed`.
+SINEW_API Expected<void> write_result(const Table& table, const std::filesystem::path& path);
 
 }  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "arm.hpp"
-#include "sinew/kinematics/follow_the_leader.hpp"
+#include "sinew/kinematics/trajectory.hpp"
 
 namespace sinew::server::device {
 

@@ -8,7 +8,9 @@
 #include "io/measured/measurement.hpp"
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
-#include "sinew/io/measured_arm.hpp"
+#include "sinew/analysis/identify.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/io/table.hpp"
 
 namespace sinew::inline v1 {
 namespace {

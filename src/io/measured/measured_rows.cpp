@@ -8,8 +8,10 @@
 
 #include "io/measured/measurement.hpp"
 #include "io/quantity.hpp"
-#include "sinew/io/measured_arm.hpp"
+#include "sinew/analysis/identify.hpp"
 #include "sinew/io/node.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/io/table.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
-#include "sinew/kinematics/arm_path.hpp"
+#include "sinew/kinematics/arm.hpp"
 #include "strain/friction/friction_rod.hpp"
 #include "strain/tangent.hpp"
 

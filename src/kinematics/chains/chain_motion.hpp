@@ -3,7 +3,7 @@
 /// by the least motion of their own, or with their freedom put to use. Theory: docs/theory/chain_velocity.md
 #pragma once
 #include "kinematics/chains/chain.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::inline v1 {
 

@@ -3,8 +3,8 @@
 /// prb. The equilibrium that was found stays in the workspace. A robot in the plane is in the plane z = 0 of
 /// space, with wrenches in it.
 #pragma once
+#include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
-#include "sinew/kinematics/force_sensing.hpp"
 
 namespace sinew::inline v1 {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "leg/platform_constraint.hpp"
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 #include "solve/homotopy.hpp"
 
 namespace sinew::inline v1::detail {

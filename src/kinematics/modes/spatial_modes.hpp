@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "leg/platform_constraint.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 

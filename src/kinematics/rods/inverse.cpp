@@ -36,9 +36,9 @@ int first_of_input(const RodGroup& system, int rod) {
 }
 
 /// Newton's method on x, y, e₃ and the three lengths while z, e₁, e₂ are held.
-class Inverse {
+class PoseNewton {
  public:
-  Inverse(RodGroup& system, int& iterations) : system_(system), iterations_(iterations) {}
+  PoseNewton(RodGroup& system, int& iterations) : system_(system), iterations_(iterations) {}
 
   /// From a state near by. False where it does not contract.
   bool correct(const IndependentPose& wanted, double& residual) {
@@ -117,7 +117,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const IndependentPo
   const IndependentPose begin = coordinates_of(system.platform());
   RodPathEnd end;
   end.residual = 0;
-  Inverse inverse(system, end.iterations);
+  PoseNewton newton(system, end.iterations);
   follow_parameter(end, {{0.5, 1e-7, work.stop}, 0, question.max_iterations}, [&](double next, double taken) {
     system.save(work.spare);
     const IndependentPose now{begin.z + next * (wanted.z - begin.z), begin.e1 + next * (wanted.e1 - begin.e1),
@@ -133,7 +133,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const IndependentPo
       const Vec<double, 6> given = twist_between(system.platform(), *ahead);
       system.evaluate();
       is_reached =
-          given.tail<3>().norm() < 0.3 && inverse.step(now, given) && inverse.correct(now, end.residual);
+          given.tail<3>().norm() < 0.3 && newton.step(now, given) && newton.correct(now, end.residual);
       ++end.iterations;  // the step that led there
     }
     if (is_reached) return ParameterStep{ParameterStep::reached, std::min(2 * taken, 0.5)};
@@ -145,7 +145,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const IndependentPo
   work.is_solved = end.arrived;
   while (work.is_solved && system.truncation() > system.traits().best_truncation && !system.is_finest()) {
     system.refine();
-    work.is_solved = inverse.correct(wanted, end.residual);
+    work.is_solved = newton.correct(wanted, end.residual);
   }
   if (!work.is_solved) return explain(system, end, {}, false);
   report.iterations = end.iterations;

@@ -2,7 +2,7 @@
 /// Lengths of rods for wanted coordinates of the platform.
 #pragma once
 #include "kinematics/rods/solve.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
+#include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::inline v1 {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sinew/math/entire.hpp"
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 
 namespace sinew::inline v1 {
 namespace detail {

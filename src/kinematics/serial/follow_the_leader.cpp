@@ -1,4 +1,4 @@
-#include "sinew/kinematics/follow_the_leader.hpp"
+#include "sinew/kinematics/trajectory.hpp"
 
 #include <algorithm>
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 

@@ -7,7 +7,7 @@
 #include "io/quantity.hpp"
 #include "io/reader.hpp"
 #include "query/arms/arms.hpp"
-#include "sinew/kinematics/arm_path.hpp"
+#include "sinew/kinematics/arm.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

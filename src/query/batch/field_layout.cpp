@@ -205,6 +205,8 @@ FieldLayout FieldLayouts::whole(AnswerShape shape) const {
       return lists_of(tendons_);
     case Shape::two_by_two:
       return matrix_of(2, 2);
+    case Shape::list:
+      return {};
   }
   return {};
 }
@@ -212,8 +214,10 @@ FieldLayout FieldLayouts::whole(AnswerShape shape) const {
 /// Some of its answers lie otherwise than those of legs that have the same name.
 FieldLayout FieldLayouts::of_arm(const AnswerField& field) const {
   if (field.name == "tensions") return lists_of(tendons_);
-  if (field.name == "answer_rates") return matrix_of(columns_, columns_);
-  if (field.name == "answers_by_wrench") return matrix_of(columns_, freedoms_);
+  for (const char* name : {"answer_rates", "changes_by_inputs", "tensions_by_inputs"})
+    if (field.name == name) return matrix_of(columns_, columns_);
+  for (const char* name : {"answers_by_wrench", "changes_by_wrench", "tensions_by_wrench"})
+    if (field.name == name) return matrix_of(columns_, freedoms_);
   return whole(field.shape);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 namespace sinew::inline v1 {
 namespace {
@@ -10,7 +11,31 @@ namespace {
 constexpr auto answer_table = [] {
 using enum AnswerShape;
 return std::array{
+    // Names of more than one word come before those of one, which would be found in their place.
     AnswerField{"indices.position", number, "", "largest singular value of the upper rows of U"},
+    AnswerField{"rows.point", number, "", "of a path of inputs: the point on the way to which a row is, from 0"},
+    AnswerField{"reached.point", number, "", "the same of where a path ended"},
+    AnswerField{"in_motion.changes", tendons, "m/s", "of each tendon, as those that hold them go on"},
+    AnswerField{"in_motion.tensions", tendons, "N/s", "at each motor, as those that hold tendons go on"},
+    AnswerField{"growing.twist", freedoms, "", "of an arm's tip as what holds a tendon grows, by that: [m/N, rad/N], of a change [1, rad/m]"},
+    AnswerField{"growing.changes", tendons, "", "of each tendon as what holds one grows, by that [m/N], of a change [1]"},
+    AnswerField{"growing.tensions", tendons, "", "at each motor as what holds a tendon grows, by that [1], of a change [N/m]"},
+    AnswerField{"shrinking.twist", freedoms, "", "of an arm's tip as what holds a tendon shrinks, by as much of that as growing"},
+    AnswerField{"shrinking.changes", tendons, "", "of each tendon as what holds one shrinks, by as much of that as growing"},
+    AnswerField{"shrinking.tensions", tendons, "", "at each motor as what holds a tendon shrinks, by as much of that as growing"},
+    AnswerField{"type_2_distance.distance", number, "", "along a direction to a singularity of type II: as many times that twist"},
+    AnswerField{"type_2_distance.reached", number, "", "along a direction that was looked at, as many times that twist"},
+    AnswerField{"reached.part", number, "", "of the way from the pose before, at most 1"},
+    AnswerField{"reached.rows", number, "", "rows of a path that were answered"},
+    AnswerField{"discs.radius", number, "m", "of a disc that is drawn"},
+    AnswerField{"discs.height", number, "m", "of a disc that is drawn"},
+    AnswerField{"margins.fold", number, "", "smallest part of the platform's stiffness over the largest, 0 at a fold"},
+    AnswerField{"margins.strain", number, "", "largest bending strain of a link"},
+    AnswerField{"curves.from.curve", number, "", "the curve that another one branches off, from 0"},
+    AnswerField{"curves.from.row", number, "", "its row there, from 0"},
+    AnswerField{"equilibria.curve", number, "", "on which curve an equilibrium is, from 0"},
+    AnswerField{"equilibria.row", number, "", "in which of its rows, from 0"},
+    AnswerField{"frontiers.curve", list, "", "of a diagram: points of the limit of a tendon [rad, of lengths m]"},
     AnswerField{"x", number, "m", "of a place in the plane"},
     AnswerField{"y", number, "m", "of a place in the plane"},
     AnswerField{"z", number, "m", "height of a platform"},
@@ -24,6 +49,27 @@ return std::array{
     AnswerField{"residual", number, "", "largest error of what was solved: [m], of robots on rods without unit"},
     AnswerField{"iterations", number, "", "of the solver"},
     AnswerField{"closure_error", number, "m", "by which a leg fails to close"},
+    AnswerField{"step", number, "", "of an iterate: the fraction of the step that was taken"},
+    AnswerField{"iteration", number, "", "of an iterate: which it is, from 0"},
+    AnswerField{"count", number, "", "of solutions"},
+    AnswerField{"part", number, "", "of the way to the next pose or point, at most 1"},
+    AnswerField{"reached", number, "", "of platforms on arms: share of the way up to which there was an equilibrium that holds"},
+    AnswerField{"load", number, "", "how many times the load could be added"},
+    AnswerField{"definite_until", number, "", "how many times it could until the stiffness is not definite"},
+    AnswerField{"parameter", number, "", "of a row of a curve: 0 at its beginning, 1 at what it leads to"},
+    AnswerField{"unstable_directions", number, "", "in which an equilibrium does not hold by itself"},
+    AnswerField{"smallest_eigenvalue", number, "", "of the Hessian of a chain's energy along what is free"},
+    AnswerField{"linear_error", number, "", "of the linear model of a load, relative"},
+    AnswerField{"steps", number, "", "of progress: steps of a fit so far"},
+    AnswerField{"error", number, "m", "of progress: root mean square of a fit's distances so far"},
+
+    AnswerField{"backbones", list, "m", "points of each leg or of an arm"},
+    AnswerField{"tendons", list, "m", "points of each tendon"},
+    AnswerField{"lines", list, "m", "ends of the segments along which legs pull"},
+    AnswerField{"base", list, "m", "points of the legs on the base"},
+    AnswerField{"platform", list, "m", "points of the legs on the platform"},
+    AnswerField{"places", list, "m", "of the points of an arm's backbone, along it from its base"},
+    AnswerField{"curvatures", list, "1/m", "of an arm or of its legs at these points, or means of equal parts"},
 
     AnswerField{"curvature", number, "1/m", "of a leg, signed"},
     AnswerField{"chord", number, "m", "from a leg's base to its tip"},
@@ -34,6 +80,7 @@ return std::array{
     AnswerField{"slide", number, "m", "of a leg on a rail"},
     AnswerField{"carriage", vector, "m", "where a leg's carriage is"},
     AnswerField{"hinge_angle", number, "rad", "of a strut from its rail"},
+    AnswerField{"elbow", number, "", "of a leg: to which side its strut is turned, 1 or -1"},
     AnswerField{"length", number, "m", "of a rod"},
     AnswerField{"force", vector, "N", "of the platform on a leg's tip, base axes"},
     AnswerField{"force_0", vector, "N", "on a rod in its guide, base axes"},
@@ -58,7 +105,14 @@ return std::array{
     AnswerField{"rates", AnswerShape::rates, "", "of the inputs, for a twist [m/s, rad/s]"},
     AnswerField{"twist", freedoms, "", "of the platform, for rates [m/s, rad/s]"},
     AnswerField{"steering", two_by_two, "", "of a serial robot's tip"},
-    AnswerField{"point", vector, "m", "that lines of legs have in common, or on an axis"},
+    AnswerField{"determinant", number, "", "of J, unit lines"},
+    AnswerField{"rotation", number, "", "largest singular value of the lower rows of U"},
+    AnswerField{"condition_homogenised", number, "", "of J, its rotations times a length"},
+    AnswerField{"rank", number, "", "of the legs' lines"},
+    AnswerField{"type_2.point", vector, "m", "that lines of legs have in common"},
+    AnswerField{"axis.point", vector, "m", "on an axis"},
+    AnswerField{"base.point", vector, "m", "where a leg begins"},
+    AnswerField{"point", pair, "rad", "of a diagram: the bend that meets the tendons best"},
     AnswerField{"direction", vector, "", "of an axis"},
     AnswerField{"wrench", freedoms, "", "of the world on the platform [N, N m]"},
     AnswerField{"stiffness", square, "", "of the platform, inputs held"},
@@ -71,6 +125,14 @@ return std::array{
     AnswerField{"configuration", bends, "rad", "of each section: two angles, and where its length varies its extension [m]"},
     AnswerField{"changes", tendons, "m", "of each tendon, > 0 pays out"},
     AnswerField{"end_tensions", tendons, "N", "of each tendon where it is fixed: what friction leaves of its tension"},
+    AnswerField{"tensions_along", list, "N", "of each tendon between motor and base, then from guide to guide to its end"},
+    AnswerField{"slipping", number, "", "at how many guides tendons slip"},
+    AnswerField{"changes_by_inputs", input_jacobian, "", "of an arm in motion: how fast each tendon changes, by what holds each [m/N, 1]"},
+    AnswerField{"tensions_by_inputs", input_jacobian, "", "the same of tensions at the motors [1, N/m]"},
+    AnswerField{"changes_by_wrench", input_jacobian, "", "how fast each tendon changes, by a wrench at the tip [m/N, 1/N]"},
+    AnswerField{"tensions_by_wrench", input_jacobian, "", "the same of tensions at the motors [1, 1/m]"},
+    AnswerField{"least", tendons, "", "rate of each tendon down to which the same guides slip [N/s, m/s]"},
+    AnswerField{"most", tendons, "", "rate of each tendon up to which they do [N/s, m/s]"},
     AnswerField{"motor_work", number, "J", "of the motors of an arm's tendons, of a row since the one before"},
     AnswerField{"friction_loss", number, "J", "at the guides of an arm's tendons, of a row since the one before"},
     AnswerField{"motors", tendons, "", "counts of each tendon's motor"},
@@ -84,15 +146,28 @@ return std::array{
     AnswerField{"misfit", number, "", "of what was measured, in standard deviations"},
     AnswerField{"margin", number, "m", "of a diagram: to the next tendon that goes slack"},
     AnswerField{"over_tension", number, "m", "of a diagram: by which tendons are too short"},
+    AnswerField{"amount", number, "", "of a diagram: the most that a tendon has too much or lacks [m]; unreachable: what is asked for, as the limit"},
+    AnswerField{"limit", number, "", "of a diagram: size of its envelope [rad], of actuators [m]"},
+    AnswerField{"normal", pair, "", "of a diagram: of the half-plane that a tendon allows"},
+    AnswerField{"offset", number, "", "of a diagram: its distance from the straight section"},
+    AnswerField{"polygon", list, "rad", "of a diagram: bends that no tendon forbids"},
+    AnswerField{"boundary", list, "rad", "of a diagram: the same within the envelope"},
+    AnswerField{"outline", list, "rad", "of a diagram: where the section can be after earlier ones that are not exact"},
+    AnswerField{"area", number, "", "of a diagram: within that boundary [rad2]"},
 };
 }();
 // clang-format on
 
-/// Without the indices at its end.
-std::string_view without_indices(std::string_view place) {
-  while (place.ends_with(']') && place.rfind('[') != std::string_view::npos)
-    place = place.substr(0, place.rfind('['));
-  return place;
+/// Its words alone, `rows.point` of `rows[3].point`.
+std::string without_indices(std::string_view place) {
+  std::string words;
+  bool is_index = false;
+  for (const char c : place) {
+    if (c == '[') is_index = true;
+    if (!is_index) words += c;
+    if (c == ']') is_index = false;
+  }
+  return words;
 }
 
 }  // namespace
@@ -100,10 +175,10 @@ std::string_view without_indices(std::string_view place) {
 std::span<const AnswerField> answer_fields() { return answer_table; }
 
 const AnswerField* find_answer_field(std::string_view place) {
-  place = without_indices(place);
+  const std::string words = without_indices(place);
   const auto found = std::ranges::find_if(answer_table, [&](const AnswerField& field) {
-    return place.ends_with(field.name) &&
-           (place.size() == field.name.size() || place[place.size() - field.name.size() - 1] == '.');
+    return words.ends_with(field.name) &&
+           (words.size() == field.name.size() || words[words.size() - field.name.size() - 1] == '.');
   });
   return found == answer_table.end() ? nullptr : &*found;
 }

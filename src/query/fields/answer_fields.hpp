@@ -28,15 +28,17 @@ enum class AnswerShape {
   bends,           ///< a serial robot's coordinates, a list per section
   tendons,         ///< a number per tendon of a serial robot, a list per section
   two_by_two,
+  list,  ///< as many as there are: the robot alone does not tell
 };
 
 struct AnswerField {
-  std::string_view name;  ///< the last word of its place, or more of them where that is not enough
+  std::string_view name;  ///< last word of its place, or as many as are needed; without indices
   AnswerShape shape;
   std::string_view unit;  ///< SI; empty for plain numbers, and where numbers of one field have several
   std::string_view meaning;
 };
 
+/// Of all questions but `describe`, which says a file again, and `identify`, which has its own page.
 SINEW_API std::span<const AnswerField> answer_fields();
 /// By a place such as `legs[0].tendon_lengths[1]`; null where nothing is known of it.
 SINEW_API const AnswerField* find_answer_field(std::string_view place);

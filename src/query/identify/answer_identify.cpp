@@ -7,7 +7,9 @@
 #include "io/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "query/identify/identification.hpp"
-#include "sinew/io/measured_arm.hpp"
+#include "sinew/analysis/identify.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/io/table.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -10,8 +10,10 @@
 #include <numeric>
 #include <set>
 
+#include "sinew/analysis/identify.hpp"
 #include "sinew/base/export.hpp"
-#include "sinew/io/measured_arm.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/io/table.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -110,7 +112,13 @@ Expected<Identification> run_identification(MeasuredArm arm, MeasuredRows rows,
   std::string part = "fitting";
   IdentifyOptions options{.model = request.model, .noise = request.noise, .stop = request.stop};
   if (request.max_iterations) options.max_iterations = *request.max_iterations;
-  if (request.progress) options.progress = [&](int steps, double rms) { request.progress(part, steps, rms); };
+  int steps_before = 0, last_steps = 0;  // of fits of this part that have ended, each of which counts from 1
+  if (request.progress)
+    options.progress = [&](int steps, double rms) {
+      if (steps <= last_steps) steps_before += last_steps;
+      last_steps = steps;
+      request.progress(part, steps_before + steps, rms);
+    };
   auto found = identify(arm, done.parameters, done.rows, options);
   if (!found) return tl::unexpected(found.error());
   done.found = std::move(*found);
@@ -119,6 +127,7 @@ Expected<Identification> run_identification(MeasuredArm arm, MeasuredRows rows,
   if (done.folds == 0 || request.stop.stop_requested() || !is_worth_keeping(done)) return done;
   begin = Clock::now();
   part = fmt::format("holding out {} parts", done.folds);
+  steps_before = last_steps = 0;
   const std::vector<int> folds = folds_of(in_stretches(done.rows, done.folds), done.folds);
   auto held_out = hold_out(arm, done.parameters, done.rows, folds, options);
   if (!held_out) return tl::unexpected(held_out.error());

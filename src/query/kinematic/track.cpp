@@ -7,8 +7,7 @@
 #include "io/reader.hpp"
 #include "query/context.hpp"
 #include "query/kinematic/kinematics.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

@@ -4,7 +4,7 @@
 
 #include "io/reader.hpp"
 #include "query/rods/rods.hpp"
-#include "sinew/kinematics/force_sensing.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 
 namespace sinew::inline v1 {
 

@@ -6,7 +6,7 @@
 
 #include "io/reader.hpp"
 #include "query/rods/rods.hpp"
-#include "sinew/kinematics/track.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

@@ -7,7 +7,7 @@
 #include "leg/rod_leg.hpp"
 #include "robot/limbs/limb_group.hpp"
 #include "robot/parallel.hpp"
-#include "sinew/leg/state.hpp"
+#include "sinew/link/state.hpp"
 
 namespace sinew::inline v1 {
 

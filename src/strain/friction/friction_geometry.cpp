@@ -2,7 +2,6 @@
 
 #include "base/at.hpp"
 #include "sinew/math/se3.hpp"
-#include "sinew/math/so3.hpp"
 #include "strain/friction/friction_rod.hpp"
 
 namespace sinew::inline v1::strain {

@@ -8,7 +8,7 @@
 
 #include "io/read_bytes.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "study/results/hdf5.hpp"
 
 namespace sinew::inline v1 {

@@ -1,4 +1,4 @@
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "study/results/result_file.hpp"
 
 namespace sinew::inline v1 {

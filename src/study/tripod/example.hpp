@@ -10,7 +10,7 @@
 
 #include "analysis/tripod_loci.hpp"
 #include "io/figure.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "study/tripod/contour.hpp"
 
 namespace sinew::inline v1::tripod {

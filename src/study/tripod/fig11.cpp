@@ -7,8 +7,8 @@
 
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/kinematics/inverse.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/tripod/tilt_plane.hpp"

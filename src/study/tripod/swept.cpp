@@ -5,7 +5,7 @@
 
 #include "base/assert.hpp"
 #include "query/batch/sampler.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 
 namespace sinew::inline v1::tripod {
 namespace {

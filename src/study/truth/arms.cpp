@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "sinew/analysis/identify.hpp"
-#include "sinew/io/measured_arm.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study/builtin.hpp"

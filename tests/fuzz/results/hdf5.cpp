@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "fuzz.hpp"
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "sinew/study/sweep.hpp"
 
 namespace {

@@ -1,7 +1,7 @@
 // A program of a user that runs sweeps.
 #include <cstdio>
 
-#include "sinew/study/result.hpp"
+#include "sinew/study/study.hpp"
 #include "sinew/study/sweep.hpp"
 
 int main() {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "link/spatial_rod.hpp"
-#include "sinew/math/so3.hpp"
+#include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {

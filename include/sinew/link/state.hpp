@@ -1,9 +1,12 @@
 /// @file state.hpp
-/// What an answer tells of a leg: of one that closes without load, and of an elastic rod.
+/// What an answer tells of a leg: of one that closes without load, and of an elastic rod; and how a backbone
+/// is cut into rigid links and springs where a robot is asked by that model. Theory:
+/// docs/theory/pseudo_rigid.md
 #pragma once
 #include <array>
 #include <limits>
 
+#include "sinew/base/export.hpp"
 #include "sinew/math/vec.hpp"
 
 namespace sinew::inline v1 {
@@ -45,6 +48,13 @@ struct RodResult {
   /// Of bending, anywhere; NaN of round rods, whose is this curvature times half their diameter.
   double largest_strain = std::numeric_limits<double>::quiet_NaN();
   double energy = 0;  ///< elastic [J]
+};
+
+/// How the backbone is lumped into joints, and how its tendons run.
+enum class PrbDiscretisation {
+  even,      ///< M0, as [TDPCR]: all joints alike, tendons guided along the links
+  weighted,  ///< M0w: joints next to an end stand for that end too. Of second order in chord and turn
+  discs      ///< M1: as M0, tendons straight between discs at the middles of links
 };
 
 }  // namespace sinew::inline v1
