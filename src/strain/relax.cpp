@@ -412,7 +412,7 @@ bool LoadedRod::comes_back(const RelaxOptions& options, Relaxed& result) {
   result.iterations += iterations;
   if (result.status != Status::converged) return false;
   const bool is_back = farthest(work_.y, here) < 1e-6 * scale;
-  judge(result);
+  check_stability(result);
   if (is_back) result.negative = 0;
   return is_back;
 }
@@ -425,7 +425,7 @@ Relaxed LoadedRod::relax_without_potential(const RelaxOptions& options) {
   Relaxed result = relax_residual(quick, 0);
   if (result.status == Status::stopped) return result;
   if (result.status == Status::converged) {
-    if (judge(result)) return result;
+    if (check_stability(result)) return result;
     // As along a path, whose places are known to hold.
     const bool is_near = farthest(work_.y, start) < 0.1 * std::sqrt(model_->energy_scale);
     if (is_near && comes_back(options, result)) return result;
@@ -434,7 +434,7 @@ Relaxed LoadedRod::relax_without_potential(const RelaxOptions& options) {
   work_.y = start;
   result = relax_residual(options, 1);
   for (int round = 0; round < 4 && result.status == Status::converged; ++round) {
-    if (judge(result) || comes_back(options, result)) break;
+    if (check_stability(result) || comes_back(options, result)) break;
     if (result.status == Status::converged && result.negative == 0 && round == 3)
       result.status = Status::unstable;
   }
@@ -444,7 +444,7 @@ Relaxed LoadedRod::relax_without_potential(const RelaxOptions& options) {
 
 /// Where loads have no potential: an equilibrium holds if the Hessian's symmetric part is positive definite;
 /// else the determinant's sign must be that of the unloaded rod.
-bool LoadedRod::judge(Relaxed& result) {
+bool LoadedRod::check_stability(Relaxed& result) {
   linearise(true);
   const int sign = factor_all(0);
   make_symmetric(*model_, work_);

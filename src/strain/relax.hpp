@@ -178,7 +178,7 @@ class LoadedRod {
   void soften(double share, std::span<const double> expected);
   Relaxed tighten(const RelaxOptions& options, double share, std::vector<double> expected);
   Relaxed grow(const RelaxOptions& options, double softness);
-  bool judge(Relaxed& result);
+  bool check_stability(Relaxed& result);
   bool comes_back(const RelaxOptions& options, Relaxed& result);
   double gradient_norm() const;
 
