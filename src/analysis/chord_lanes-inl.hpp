@@ -38,7 +38,7 @@ class ChordLegs {
       const Pack loss = minus(all(1), rows.size[i], all(1 / leg.length));
       const Pack bend = inverse_sinc_of_loss(hn::Min(hn::Max(loss, all(straight_margin)), all(1)));
       const Pack size = bend * all(2 / leg.length);
-      judge(leg, loss, size, certain);
+      narrow_certainty(leg, loss, size, certain);
       curvature[i] = size * all(leg.bending);
       if (!out_.residual.empty()) open = hn::Max(open, gap(leg, bend, rows.size[i]));
       const Pack rate = bend * sinc_slope_of_square(bend * bend);  // −sinc′
@@ -62,7 +62,7 @@ class ChordLegs {
 
   /// A chord that is for certain shorter than the backbone, or longer; a curvature that is short of its
   /// domain, or beyond. All comparisons are false for NaN, which makes it doubtful.
-  static HWY_INLINE void judge(const ChordLeg& leg, Pack loss, Pack curvature, Certain& certain) {
+  static HWY_INLINE void narrow_certainty(const ChordLeg& leg, Pack loss, Pack curvature, Certain& certain) {
     const Mask shorter = hn::Gt(loss, all(straight_margin));
     const Mask longer = hn::And(hn::Lt(loss, all(-straight_margin)), hn::Gt(loss, all(-1e100)));
     const Mask within = hn::Lt(curvature, all(leg.domain * (1 - domain_margin)));

@@ -147,7 +147,7 @@ class HingedLegs {
     const Pack square = plus(beside * beside, off, off), length = all(leg.strut);
     const Pack distance = hn::Sqrt(square);
     const Pack rise = hn::Sqrt(hn::Max((length - distance) * (length + distance), all(0))) * all(leg.elbow);
-    judge(leg, beside, distance, ahead, certain);
+    narrow_certainty(leg, beside, distance, ahead, certain);
     for (std::size_t k = 0; k < D; ++k) {
       const Pack in_plane = plus(all(leg.hinge[k]) * beside, all(leg.across[k]), off);
       rows.line[i][k] = plus(in_plane, all(leg.rail[k]), rise) * all(1 / leg.strut);
@@ -169,8 +169,8 @@ class HingedLegs {
 
   /// A platform point that is for certain in the plane of its hinge, or beside it; a strut that is longer
   /// than it must be, by so much that it is not square to its rail, or shorter.
-  static HWY_INLINE void judge(const HingedLeg& leg, Pack beside, Pack distance, Pack ahead,
-                               Certain& certain) {
+  static HWY_INLINE void narrow_certainty(const HingedLeg& leg, Pack beside, Pack distance, Pack ahead,
+                                          Certain& certain) {
     constexpr double tolerance = HingedStrut::plane_tolerance;
     const Pack away = hn::Abs(beside);
     const Mask in_plane = hn::Lt(away, all(leg.strut * tolerance / plane_margin));

@@ -8,8 +8,8 @@
 #include "kinematics/chains/questions.hpp"
 #include "kinematics/load_problem.hpp"
 #include "kinematics/rods/batch.hpp"
-#include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
+#include "kinematics/rods/lengths_for_pose.hpp"
 #include "kinematics/rods/question.hpp"
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/trace.hpp"
@@ -88,7 +88,7 @@ Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose& wanted,
   if (has_chains(robot)) return inverse_equilibrium_of_chains(robot, wanted, options, work);
   return solved(robot, options, work,
                 [&](RodWork& rods, const SE3<double>& home, const RodQuestion& question) {
-                  return hold_rods(rods, home, SE3<double>::from(wanted), question);
+                  return lengths_for_pose(rods, home, SE3<double>::from(wanted), question);
                 });
 }
 
@@ -389,11 +389,11 @@ std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const Spati
   for (int k = -1; k < ways && !rods.stop.stop_requested(); ++k) {
     question.warm_start = false;
     if (k >= 0) {  // by a pose between
-      const Report between = hold_rods(rods, home, scattered(home, size, k), question);
+      const Report between = lengths_for_pose(rods, home, scattered(home, size, k), question);
       if (!between.is_solved()) continue;
       question.warm_start = true;
     }
-    const Report report = hold_rods(rods, home, target, question);
+    const Report report = lengths_for_pose(rods, home, target, question);
     if (!report.is_solved()) continue;
     FoundEquilibrium one = found_equilibrium(report, rods, work);
     if (!is_known(one)) found.push_back(std::move(one));

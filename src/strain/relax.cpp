@@ -195,119 +195,147 @@ bool LoadedRod::leave_saddle(Relaxed& result, double& energy) {
   return false;
 }
 
-Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
-  Relaxed result;
-  leaves_ = options.leave_saddles;
+/// Where the gradient is as small as asked: whether the search ends here. Else a saddle was left.
+bool LoadedRod::ends_at_rest(const RelaxOptions& options, EnergySearch& search) {
+  if (search.kept) return true;
+  search.result.negative = factor_all(0);
+  if (search.result.negative == 0) return true;
+  std::vector<double> direction(at(model_->size));
+  if (lowest(direction) > -neutral) {  // it may turn freely
+    search.result.negative = 0;
+    return true;
+  }
+  if (!options.leave_saddles || !leave_saddle(search.result, search.energy)) {
+    search.result.status = Status::unstable;
+    return true;
+  }
+  search.swept = false;
+  return false;
+}
+
+/// Whether the factor that was kept is worth another step: the gradient fell by it, and so is soon small
+/// enough.
+bool LoadedRod::is_worth_keeping(const RelaxOptions& options, const EnergySearch& search) {
+  const double residual = search.result.residual, reduced = residual / search.before,
+               rate = std::max(reduced, 1e-12);
+  if (reduced >= 0.3) leans_ = false;
+  return same_active() && reduced < 0.3 &&
+         (residual * rate <= options.tolerance || residual * rate * rate <= options.tolerance);
+}
+
+/// Newton's step by the factor that was kept.
+void LoadedRod::step_by_kept_factor(EnergySearch& search) {
+  for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
+  solve_all(sides_, 1, stride_);
+  for (int i = 0; i < model_->size; ++i) work_.y[at(i)] += sides_[at(i * stride_)];
+  search.energy = evaluate();
+  ++search.result.evaluations;
+}
+
+/// Whether a step is accepted: by what the energy fell, or where rounding rules that by the gradient.
+/// @param next the energy after it [J]
+/// @param ratio of what the energy fell by to what it was to fall by
+LoadedRod::StepEnd LoadedRod::check_step(const RelaxOptions& options, const Descent& descent, double next,
+                                         EnergySearch& search, double& ratio) {
+  ratio = 1;
+  if (!(descent.predicted <= 1e-12 * (std::abs(search.energy) + model_->energy_scale))) {
+    ratio = (search.energy - next) / descent.predicted;
+    return ratio > 1e-4 ? StepEnd::accepted : StepEnd::refused;
+  }
+  linearise(false);
+  const double before = search.before, after = gradient_norm();
+  if (after < before * (1 - 1e-4) || after <= options.tolerance) return StepEnd::accepted;
+  // Where tendons are stiff a step along them turns the gradient before the next one takes it away.
+  const bool is_newton = descent.shift == 0 && descent.negative == 0;
+  if (is_newton && after < 1e2 * before && search.forgiven < 3) {
+    ++search.forgiven;
+    return StepEnd::accepted;
+  }
+  if (before < 1e3 * options.tolerance) return StepEnd::as_near_as_rounding_lets;
+  ratio = 0;
+  return StepEnd::refused;
+}
+
+/// Where no step is short enough. Down a saddle by so little that rounding hides it, or held back by what
+/// becomes taut on one side? Then the search goes on from there, once.
+bool LoadedRod::leaves_where_stuck(const RelaxOptions& options, const Descent& descent,
+                                   EnergySearch& search) {
+  if (descent.negative > 0 && options.leave_saddles && !search.left_saddle &&
+      leave_saddle(search.result, search.energy)) {
+    search.left_saddle = true;
+    search.radius = std::numbers::pi * std::sqrt(model_->energy_scale);
+    search.swept = false;
+    return true;
+  }
+  search.result.status = Status::stalled;
+  return false;
+}
+
+/// A step in the trust region, and its radius for the next one. False where the search ends.
+bool LoadedRod::try_step(const RelaxOptions& options, EnergySearch& search) {
   const double scale = std::sqrt(model_->energy_scale), most = 1e3 * scale;
-  double radius = std::numbers::pi * scale, energy = evaluate(), before = 0, rate = 1;
+  Relaxed& result = search.result;
+  Descent descent;
+  if (!newton_step(search.radius, step_, descent)) {
+    result.status = Status::stalled;
+    return false;
+  }
+  const double length = norm(step_);
+  std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
+  for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + step_[i];
+  const double next = evaluate();
   ++result.evaluations;
-  int forgiven = 0;          // steps that raised the gradient where the energy does not tell
-  bool kept = false;         // a factor of a Hessian near by, positive definite
-  bool swept = false;        // the Hessian at hand is of this iterate
-  bool left_saddle = false;  // where no step was short enough
+  double ratio = 1;
+  const StepEnd end = check_step(options, descent, next, search, ratio);
+  if (end == StepEnd::as_near_as_rounding_lets) {
+    search.energy = restore();
+    result.negative = std::max(0, factor_all(0));
+    result.status = result.negative == 0 ? Status::converged : Status::unstable;
+    return false;
+  }
+  if (ratio < 0.25)
+    search.radius = 0.25 * std::min(length, search.radius);
+  else if (ratio > 0.75 && length > 0.8 * search.radius)
+    search.radius = std::min(most, 2.5 * search.radius);
+  if (end == StepEnd::accepted) {
+    search.swept = false;
+    search.energy = next;
+    search.kept = descent.factored && descent.shift == 0 && descent.negative == 0 && length < 0.1 * scale &&
+                  same_active();
+    return true;
+  }
+  search.energy = restore();
+  search.swept = true;
+  return !(search.radius < 1e-14 * scale) || leaves_where_stuck(options, descent, search);
+}
+
+Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
+  leaves_ = options.leave_saddles;
+  EnergySearch search;
+  search.radius = std::numbers::pi * std::sqrt(model_->energy_scale);
+  search.energy = evaluate();
+  Relaxed& result = search.result;
+  ++result.evaluations;
   for (;; ++result.iterations) {
-    if (!kept) {
-      if (!swept) linearise(true);
-      swept = true;
-    } else {
-      linearise(false);
-      swept = false;
-    }
+    if (search.kept || !search.swept) linearise(!search.kept);
+    search.swept = !search.kept;
     result.residual = gradient_norm();
-    if (!std::isfinite(energy)) result.residual = std::numeric_limits<double>::quiet_NaN();
+    if (!std::isfinite(search.energy)) result.residual = std::numeric_limits<double>::quiet_NaN();
     if (result.residual <= options.tolerance) {
-      if (kept) return result;
-      result.negative = factor_all(0);
-      if (result.negative == 0) return result;
-      std::vector<double> direction(at(model_->size));
-      if (lowest(direction) > -neutral) {  // it may turn freely
-        result.negative = 0;
-        return result;
-      }
-      if (!options.leave_saddles || !leave_saddle(result, energy)) {
-        result.status = Status::unstable;
-        return result;
-      }
-      swept = false;
+      if (ends_at_rest(options, search)) return result;
       continue;
     }
     if (must_end(result, options, left_ <= 0)) return result;
-    if (kept) {  // worth another step of the same factor, or a new one
-      const double reduced = result.residual / before;
-      rate = std::max(reduced, 1e-12);
-      kept =
-          same_active() && reduced < 0.3 &&
-          (result.residual * rate <= options.tolerance || result.residual * rate * rate <= options.tolerance);
-      if (reduced >= 0.3) leans_ = false;
-      if (!kept) linearise(true);
-      swept = !kept;
+    if (search.kept) {
+      search.kept = is_worth_keeping(options, search);
+      if (!search.kept) linearise(true);
+      search.swept = !search.kept;
     }
-    before = result.residual;
-    if (kept) {
-      for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
-      solve_all(sides_, 1, stride_);
-      for (int i = 0; i < model_->size; ++i) work_.y[at(i)] += sides_[at(i * stride_)];
-      energy = evaluate();
-      ++result.evaluations;
-      continue;
-    }
-    Descent descent;
-    if (!newton_step(radius, step_, descent)) {
-      result.status = Status::stalled;
+    search.before = result.residual;
+    if (search.kept)
+      step_by_kept_factor(search);
+    else if (!try_step(options, search))
       return result;
-    }
-    const double length = norm(step_), predicted = descent.predicted;
-    std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
-    for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + step_[i];
-    const double next = evaluate();
-    ++result.evaluations;
-    bool accept = false;
-    double ratio = 1;
-    if (predicted <= 1e-12 * (std::abs(energy) + model_->energy_scale)) {  // rounding rules the difference
-      linearise(false);
-      const double after = gradient_norm();
-      accept = after < before * (1 - 1e-4) || after <= options.tolerance;
-      // Where tendons are stiff a step along them turns the gradient before the next one takes it away.
-      const bool is_newton = descent.shift == 0 && descent.negative == 0;
-      if (!accept && is_newton && after < 1e2 * before && forgiven < 3) {
-        accept = true;
-        ++forgiven;
-      }
-      if (!accept && before < 1e3 * options.tolerance) {  // as near as rounding lets it
-        energy = restore();
-        result.negative = std::max(0, factor_all(0));
-        result.status = result.negative == 0 ? Status::converged : Status::unstable;
-        return result;
-      }
-      if (!accept) ratio = 0;
-    } else {
-      ratio = (energy - next) / predicted;
-      accept = ratio > 1e-4;
-    }
-    if (ratio < 0.25)
-      radius = 0.25 * std::min(length, radius);
-    else if (ratio > 0.75 && length > 0.8 * radius)
-      radius = std::min(most, 2.5 * radius);
-    swept = false;
-    if (accept) {
-      energy = next;
-      kept = descent.factored && descent.shift == 0 && descent.negative == 0 && length < 0.1 * scale &&
-             same_active();
-    } else {
-      energy = restore();
-      swept = true;
-      if (radius < 1e-14 * scale) {
-        // Down a saddle by so little that rounding hides it, or held back by what becomes taut on one side?
-        if (descent.negative > 0 && options.leave_saddles && !left_saddle && leave_saddle(result, energy)) {
-          left_saddle = true;
-          radius = std::numbers::pi * scale;
-          swept = false;
-          continue;
-        }
-        result.status = Status::stalled;
-        return result;
-      }
-    }
   }
 }
 
@@ -384,7 +412,7 @@ bool LoadedRod::comes_back(const RelaxOptions& options, Relaxed& result) {
   result.iterations += iterations;
   if (result.status != Status::converged) return false;
   const bool is_back = farthest(work_.y, here) < 1e-6 * scale;
-  judge(result);
+  check_stability(result);
   if (is_back) result.negative = 0;
   return is_back;
 }
@@ -397,7 +425,7 @@ Relaxed LoadedRod::relax_without_potential(const RelaxOptions& options) {
   Relaxed result = relax_residual(quick, 0);
   if (result.status == Status::stopped) return result;
   if (result.status == Status::converged) {
-    if (judge(result)) return result;
+    if (check_stability(result)) return result;
     // As along a path, whose places are known to hold.
     const bool is_near = farthest(work_.y, start) < 0.1 * std::sqrt(model_->energy_scale);
     if (is_near && comes_back(options, result)) return result;
@@ -406,7 +434,7 @@ Relaxed LoadedRod::relax_without_potential(const RelaxOptions& options) {
   work_.y = start;
   result = relax_residual(options, 1);
   for (int round = 0; round < 4 && result.status == Status::converged; ++round) {
-    if (judge(result) || comes_back(options, result)) break;
+    if (check_stability(result) || comes_back(options, result)) break;
     if (result.status == Status::converged && result.negative == 0 && round == 3)
       result.status = Status::unstable;
   }
@@ -416,7 +444,7 @@ Relaxed LoadedRod::relax_without_potential(const RelaxOptions& options) {
 
 /// Where loads have no potential: an equilibrium holds if the Hessian's symmetric part is positive definite;
 /// else the determinant's sign must be that of the unloaded rod.
-bool LoadedRod::judge(Relaxed& result) {
+bool LoadedRod::check_stability(Relaxed& result) {
   linearise(true);
   const int sign = factor_all(0);
   make_symmetric(*model_, work_);

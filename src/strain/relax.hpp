@@ -151,7 +151,25 @@ class LoadedRod {
   int factor_with_tendons(double shift);
   bool leave_saddle(Relaxed& result, double& energy);
   double restore();
+  /// How far a search for the least energy is.
+  struct EnergySearch {
+    Relaxed result = {};
+    double energy = 0, radius = 0;  ///< at hand [J]; of the trust region
+    double before = 0;              ///< residual before the last step
+    int forgiven = 0;               ///< steps that raised the gradient where the energy does not tell
+    bool kept = false;              ///< a factor of a Hessian near by, positive definite
+    bool swept = false;             ///< the Hessian at hand is of this iterate
+    bool left_saddle = false;       ///< where no step was short enough
+  };
+  enum class StepEnd { accepted, refused, as_near_as_rounding_lets };
   Relaxed relax_energy(const RelaxOptions& options);
+  bool ends_at_rest(const RelaxOptions& options, EnergySearch& search);
+  bool is_worth_keeping(const RelaxOptions& options, const EnergySearch& search);
+  void step_by_kept_factor(EnergySearch& search);
+  bool try_step(const RelaxOptions& options, EnergySearch& search);
+  StepEnd check_step(const RelaxOptions& options, const Descent& descent, double next, EnergySearch& search,
+                     double& ratio);
+  bool leaves_where_stuck(const RelaxOptions& options, const Descent& descent, EnergySearch& search);
   Relaxed relax_residual(const RelaxOptions& options, double shift);
   Relaxed relax_without_potential(const RelaxOptions& options);
   Relaxed search(const RelaxOptions& options);
@@ -160,7 +178,7 @@ class LoadedRod {
   void soften(double share, std::span<const double> expected);
   Relaxed tighten(const RelaxOptions& options, double share, std::vector<double> expected);
   Relaxed grow(const RelaxOptions& options, double softness);
-  bool judge(Relaxed& result);
+  bool check_stability(Relaxed& result);
   bool comes_back(const RelaxOptions& options, Relaxed& result);
   double gradient_norm() const;
 

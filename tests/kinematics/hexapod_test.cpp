@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kinematics/rods/hold.hpp"
+#include "kinematics/rods/lengths_for_pose.hpp"
 #include "rod_robots.hpp"
 #include "sanitizers.hpp"
 #include "shooting_hexapod.hpp"
@@ -117,13 +117,13 @@ TEST(Hexapod, ResumedStepsAgreeWithTheWayFromHome) {
 TEST(Hexapod, HoldsElasticasAsWell) {
   RodRandom random(8);
   const RodRobot tripod = tripod_robot(g2), robot(tripod.legs, tripod.home, tripod.platform_radius);
-  RodWork plane = work_of<RodSystem>(robot);
+  RodWork plane = work_of<ElasticaSystem>(robot);
   RodWork spatial = work_of<TangentSystem>(robot);
   const SE3<double> wanted = random.near(home(robot), 0.01, 0.03);
   RodQuestion question;
   question.wrench = random.wrench(0.5, 0.02);
-  const Report a = hold_rods(plane, home(robot), wanted, question);
-  const Report b = hold_rods(spatial, home(robot), wanted, question);
+  const Report a = lengths_for_pose(plane, home(robot), wanted, question);
+  const Report b = lengths_for_pose(spatial, home(robot), wanted, question);
   ASSERT_TRUE((a.ok() || a.status == Status::unstable) && a.status == b.status) << a.message.view();
   for (int k = 0; k < 6; ++k) {
     EXPECT_NEAR(plane.system->length(k), spatial.system->length(k), 1e-12);

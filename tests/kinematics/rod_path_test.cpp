@@ -25,7 +25,7 @@ struct Path {
     return to(target, options);
   }
 
-  RodSystem system;
+  ElasticaSystem system;
   LimbState spare;
 };
 
@@ -34,7 +34,7 @@ TEST(RodRest, NothingPushesAlongTheGuides) {
   for (const int rods : {3, 8, 9, 12})
     for (int trial = 0; trial < 20; ++trial) {
       const RodRobot robot = random.robot(rods, 0.3);
-      RodSystem system(robot);
+      ElasticaSystem system(robot);
       ASSERT_TRUE(system.rest_at(random.near(home(robot), 0.05, 0.3)));
       EXPECT_LT(system.evaluate(), 1e-12);
       double worst = 0;
@@ -60,7 +60,7 @@ TEST(RodRest, ReachesTheReferenceHomes) {  // lengths found by another implement
 TEST(RodRest, IsHonestWhereARodHasNoPlaneOrNoWayForward) {
   const judge::Tripod t = g2.data();
   const auto rests = [&](const judge::Tripod& robot, const SE3<double>& pose) {
-    RodSystem system(tripod_robot(robot, pose));
+    ElasticaSystem system(tripod_robot(robot, pose));
     return system.rest_at(pose);
   };
   EXPECT_TRUE(rests(t, level(0.4)));
@@ -83,7 +83,7 @@ TEST(RodRest, BendsAsFarAsTheTipLies) {  // from nearly straight to nearly acros
   for (const double height : {2.0, 0.5, 0.2, 0.1, 0.05}) {
     const judge::Tripod t = g2.data();
     const RodRobot robot = tripod_robot(t, level(height));
-    RodSystem system(robot);
+    ElasticaSystem system(robot);
     ASSERT_TRUE(system.rest_at(level(height))) << height;
     EXPECT_LT(system.evaluate(), 1e-12) << height;
     system.refine();
@@ -168,7 +168,7 @@ TEST(RodPath,
      FindsWhereTheSymmetricStateBuckles) {  // notes: G2 between -110 and -112 N, G1 between -190 and -200
   for (const auto& [t, low, high] : {std::tuple{g2, 110.0, 112.0}, std::tuple{g1, 190.0, 200.0}}) {
     SCOPED_TRACE(t.name);
-    RodWork work = work_of<RodSystem>(tripod_robot(t));
+    RodWork work = work_of<ElasticaSystem>(tripod_robot(t));
     RodGroup& system = *work.system;
     ASSERT_TRUE(system.rest_at(level(t.height)));
     RodTarget target = present(system);

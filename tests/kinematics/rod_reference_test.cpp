@@ -16,7 +16,7 @@ struct Set {
       : json(judge::reference(name)),
         data(judge::tripod(json)),
         robot(tripod_robot(data, level(json["h_home"].get<double>()))),
-        work(work_of<RodSystem>(robot)) {}
+        work(work_of<ElasticaSystem>(robot)) {}
 
   Report solve(const Json& c, RodQuestion question = {}) {
     for (int k = 0; k < 6; ++k)

@@ -26,7 +26,7 @@ TEST(RodShooting, ThePapersNewtonStaysWhereItIsStarted) {  // @verifies 3PFS (24
   for (const RodTripod& t : {g1, g2}) {
     const judge::Tripod data = t.data();
     const RodRobot robot = tripod_robot(t);
-    RodWork work = work_of<RodSystem>(robot);
+    RodWork work = work_of<ElasticaSystem>(robot);
     RodRandom random(1);
     for (int trial = 0; trial < 4; ++trial) {
       const Vec3<double> L = Vec3<double>::Constant(t.length) + random.vector(0.06);

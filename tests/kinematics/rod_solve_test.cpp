@@ -13,7 +13,7 @@ namespace rod_solve_test {
 /// A robot with the memory of its solver.
 struct Solver {
   explicit Solver(const RodTripod& t) : Solver(tripod_robot(t)) {}
-  explicit Solver(const RodRobot& r) : robot(r), work(work_of<RodSystem>(robot)) {}
+  explicit Solver(const RodRobot& r) : robot(r), work(work_of<ElasticaSystem>(robot)) {}
 
   Report ask(Numbers inputs, const RodQuestion& question = {}) {
     return solve_rods(work, home(robot), inputs, question);

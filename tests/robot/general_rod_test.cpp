@@ -81,7 +81,7 @@ int unstable_column(double push, const RodEnds& ends, double stiffer = 1) {
   const double shorter = push / (rod.youngs_modulus * rod.area());
   one.system->set_platform(level(1 - shorter));
   EXPECT_TRUE(one.system->draw_rods());
-  one.system->hold(0, 1);
+  one.system->set_feed(0, 1);
   while (!one.system->is_finest()) one.system->refine();
   EXPECT_TRUE(one.settle());
   EXPECT_NEAR(one.system->rod(0).force[2], -push, 1e-6 * push);
@@ -170,7 +170,7 @@ TEST(GeneralRod, BearsATautRod) {
   One one(rod, {Base::held, Tip::clamp});
   one.system->set_platform({Vec3<double>(1e-3, 2e-3, 1 + stretch), SO3<double>::exp({0.01, 0.02, 0.03})});
   ASSERT_TRUE(one.system->draw_rods());
-  one.system->hold(0, 1);
+  one.system->set_feed(0, 1);
   while (!one.system->is_finest()) one.system->refine();
   ASSERT_TRUE(one.settle());
   const RodResult x = one.system->rod(0);

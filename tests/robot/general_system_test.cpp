@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "kinematics/rods/hold.hpp"
+#include "kinematics/rods/lengths_for_pose.hpp"
 #include "kinematics/rods/solve.hpp"
 #include "rod_robots.hpp"
 #include "sanitizers.hpp"
@@ -81,7 +81,8 @@ template <class System>
 bool begin(System& system, const RodRobot& robot, RodRandom& random) {
   system.set_gravity(gravity);
   if (!system.rest_at(random.near(home(robot), 0.03, 0.15))) return false;
-  for (int k = 0; k < system.limbs(); ++k) system.hold(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
+  for (int k = 0; k < system.limbs(); ++k)
+    system.set_feed(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
   return close_rods(system) && balance(system);
 }
 
@@ -107,7 +108,7 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
       if (!close_rods(tangents) || !balance(tangents)) continue;
       rods.set_gravity(gravity);
       ASSERT_TRUE(rods.rest_at(tangents.platform())) << kind.name;
-      for (int k = 0; k < 6; ++k) rods.hold(k, tangents.length(k));
+      for (int k = 0; k < 6; ++k) rods.set_feed(k, tangents.length(k));
       finest(rods);
       ASSERT_TRUE(close_rods(rods) && balance(rods)) << kind.name;
       if (unstable_directions(tangents) != 0 || unstable_directions(rods) != 0) continue;  // other shapes
@@ -370,7 +371,7 @@ TEST(GeneralSystem, HeldSpinStiffensTheTurnAboutTheAxis) {
   const SE3<double> turned{home(robot).p, SO3<double>::exp({0, 0, 0.4})};
   GeneralSystem spinning(robot), resisting(held);
   ASSERT_TRUE(spinning.rest_at(turned) && resisting.rest_at(turned));
-  for (int k = 0; k < 6; ++k) resisting.hold(k, spinning.length(k));
+  for (int k = 0; k < 6; ++k) resisting.set_feed(k, spinning.length(k));
   ASSERT_TRUE(close_rods(spinning) && balance(spinning));
   ASSERT_TRUE(close_rods(resisting) && balance(resisting));
   const double torsion = spatial_rod(held.legs[0].link).torsion_stiffness / spinning.length(0);
@@ -449,7 +450,7 @@ TEST(GeneralSystem, HoldsThePosesThatItsLengthsLeadTo) {
       RodQuestion question;
       question.wrench = random.wrench(0.05, 0.005);
       const SE3<double> wanted = random.near(home(robot), 0.01, 0.05);
-      const Report held = hold_rods(work, home(robot), wanted, question);
+      const Report held = lengths_for_pose(work, home(robot), wanted, question);
       if (!held.ok()) continue;
       std::array<double, 6> inputs;
       for (std::size_t k = 0; k < 6; ++k) inputs[k] = work.system->length(int(k));

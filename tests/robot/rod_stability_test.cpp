@@ -18,7 +18,7 @@ namespace rod_stability_test {
 /// A system of one rod of unit length and stiffness. Only its rod is of interest: nothing else holds the
 /// platform.
 struct SingleRod {
-  RodSystem system{
+  ElasticaSystem system{
       RodRobot{{rod_leg(Vec3<double>::Zero(), Vec3<double>::Zero(), 1)}, pose_of(level(0.9)), 1}};
 
   /// Takes over an exact shape, at its tip. Evaluated.
@@ -146,7 +146,7 @@ std::vector<double> numbers_of_a_step() {
     for (const bool is_fine : {false, true})
       for (const double far : {0.0, 1.0}) {  // shapes within 2.5 rad and beyond: two ways to a sine
         const RodRobot robot = random.robot(rods, 0.2);
-        RodSystem system(robot);
+        ElasticaSystem system(robot);
         EXPECT_TRUE(system.rest_at(random.near(home(robot), 0.02, 0.1)));
         if (is_fine) system.refine();
         system.set_platform(random.near(system.platform(), 1e-3, 1e-2));
@@ -166,7 +166,7 @@ std::vector<double> numbers_of_a_step() {
         numbers.insert(numbers.end(), missing.data(), missing.data() + 6);
         numbers.insert(numbers.end(), feed.data(), feed.data() + 6);
         const std::vector<double> fed(std::size_t(rods), 1e-4);
-        RodSystem::Twist twist = RodSystem::Twist::Constant(1e-4);
+        ElasticaSystem::Twist twist = ElasticaSystem::Twist::Constant(1e-4);
         if (far == 0) twist = system.step(true);
         system.move(twist, fed);
         system.evaluate(false);
@@ -216,7 +216,7 @@ TEST(PoseLanes, CountUnstableDirectionsAsOneByOne) {
     PoseLanes poses{};
     std::array<int, rod_lanes> counts{};
     for (int lane = 0; lane < rod_lanes; ++lane) {
-      RodSystem system(robot);
+      ElasticaSystem system(robot);
       system.set_platform(random.near(home(robot), 0.1, 0.5));
       system.set_wrench(random.wrench(5, 1));
       for (int k = 0; k < 6; ++k) {
@@ -242,7 +242,8 @@ TEST(PoseLanes, CountUnstableDirectionsAsOneByOne) {
       poses.quaternion[0][lane] = pose.R.w;
       for (int c = 0; c < 6; ++c) poses.wrench[c][lane] = system.wrench()[c];
     }
-    rod_kernels::advance(rods, {.moves = false, .from_scratch = true, .renews = true, .judges = true}, poses);
+    rod_kernels::advance(
+        rods, {.moves = false, .from_scratch = true, .renews = true, .counts_unstable = true}, poses);
     for (std::size_t lane = 0; lane < rod_lanes; ++lane) {
       EXPECT_EQ(poses.unstable[lane], counts[lane]) << trial;
       ++seen[std::size_t(std::min(counts[lane], 7))];

@@ -43,7 +43,8 @@ RodRobot robot_of(const Kind& kind, RodRandom& random, int rods = 6) {
 bool begin(TangentSystem& system, const RodRobot& robot, RodRandom& random) {
   system.set_gravity(gravity);
   if (!system.rest_at(random.near(home(robot), 0.03, 0.15))) return false;
-  for (int k = 0; k < system.limbs(); ++k) system.hold(k, system.length(k) * (1 + random.uniform(0, 3e-3)));
+  for (int k = 0; k < system.limbs(); ++k)
+    system.set_feed(k, system.length(k) * (1 + random.uniform(0, 3e-3)));
   return close_rods(system) && balance(system);
 }
 
@@ -175,7 +176,7 @@ TEST(TangentSystem, BallJointsAndNoWeightMakeElasticas) {
 TEST(TangentSystem, SolvesTheTripodsAsThePlaneRodsDo) {
   for (const RodTripod& t : {g1, g2}) {
     const RodRobot robot = tripod_robot(t);
-    RodWork plane = work_of<RodSystem>(robot);
+    RodWork plane = work_of<ElasticaSystem>(robot);
     RodWork spatial = work_of<TangentSystem>(robot);
     RodRandom random(9);
     for (int sample = 0; sample < 20; ++sample) {
@@ -270,7 +271,7 @@ TEST(TangentSystem, ColumnsBuckleAtTheirCriticalLoads) {
     const double critical = (clamped ? 39.4784176 : 20.1907286) * 0.3 / (0.4 * 0.4);
     for (const double part : {0.2, 0.99, 1.01}) {
       const double load = part * critical;
-      system.hold(0, 0.4 / (1 - load * (leg.link.stretch_compliance() + leg.link.shear_compliance())));
+      system.set_feed(0, 0.4 / (1 - load * (leg.link.stretch_compliance() + leg.link.shear_compliance())));
       ASSERT_TRUE(close_rods(system));
       system.linearise();
       EXPECT_NEAR(system.rod(0).axial_force, -load, 1e-3 * load);

@@ -9,9 +9,9 @@
 #include "kinematics/rods/path.hpp"
 #include "link/elastica.hpp"
 #include "robot/pose.hpp"
+#include "robot/rods/elastica_system.hpp"
 #include "robot/rods/general_system.hpp"
 #include "robot/rods/mechanism.hpp"
-#include "robot/rods/rod_system.hpp"
 #include "robot/rods/rod_work.hpp"
 #include "robot/rods/tangent_system.hpp"
 #include "tripod_3pfs.hpp"
@@ -19,13 +19,13 @@
 namespace sinew::test {
 
 /// Groups of rods as solvers have them: mechanisms without closing legs.
-using RodSystem = Mechanism<v1::RodSystem>;
+using ElasticaSystem = Mechanism<v1::ElasticaSystem>;
 using TangentSystem = Mechanism<v1::TangentSystem>;
 using GeneralSystem = Mechanism<v1::GeneralSystem>;
 
 namespace judge = shooting;
 using RodRobot = ParallelRobot<RodLeg>;
-using Wrench6 = RodSystem::Wrench;
+using Wrench6 = ElasticaSystem::Wrench;
 
 /// Largest, any NaN kept.
 inline void worsen(double& worst, double x) { worst = std::isnan(worst) || x <= worst ? worst : x; }
@@ -159,7 +159,7 @@ bool balance(System& system) {
 
 /// Rods at a pose with lengths of no special kind: laid there to rest, then fed so that what they are longer
 /// than their chord becomes half to three times as much. In balance, linearised.
-inline bool lay(RodSystem& system, const SE3<double>& pose, RodRandom& random) {
+inline bool lay(ElasticaSystem& system, const SE3<double>& pose, RodRandom& random) {
   if (!system.rest_at(pose)) return false;
   const RodTarget from = present(system);
   RodTarget to = from;
@@ -171,7 +171,7 @@ inline bool lay(RodSystem& system, const SE3<double>& pose, RodRandom& random) {
   for (double part = 0, stride = 0.1; part < 1;) {
     const double next = std::min(1.0, part + stride);
     for (std::size_t k = 0; k < std::size_t(system.limbs()); ++k)
-      system.hold(int(k), from.lengths[k] + next * (to.lengths[k] - from.lengths[k]));
+      system.set_feed(int(k), from.lengths[k] + next * (to.lengths[k] - from.lengths[k]));
     if (close_rods(system)) {
       part = next;
       system.save(last);
@@ -193,7 +193,7 @@ Wrench6 wrench_beside(System& system, const LimbState& from, const Vec<double, 6
   const SE3<double> there = system.platform();
   system.set_platform({there.p + by.head<3>(), turn.compose(there.R)});
   for (int k = 0; k < system.limbs() && !fed.empty(); ++k)
-    system.hold(k, system.length(k) + fed[std::size_t(system.input_of(k))]);
+    system.set_feed(k, system.length(k) + fed[std::size_t(system.input_of(k))]);
   if (!close_rods(system)) return Wrench6::Constant(std::nan(""));
   balance(system);
   return system.wrench();

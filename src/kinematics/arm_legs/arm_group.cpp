@@ -282,7 +282,7 @@ std::pair<const ArmGroup::Leg*, const ArmGroup::Tendon*> ArmGroup::find(int feed
   return {&leg, &leg.tendons[at(feed - leg.first_feed)]};
 }
 double ArmGroup::held(int feed) const { return find(feed).second->command.value; }
-void ArmGroup::hold(int feed, double value) {
+void ArmGroup::set_feed(int feed, double value) {
   const_cast<Tendon*>(find(feed).second)->command.value = value;  // of this group, which is not const here
   set_share(share_);
 }

@@ -60,7 +60,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   int feeds() const override { return feeds_; }
   int input_of(int feed) const override { return feed; }
   double held(int feed) const override;
-  void hold(int feed, double value) override;
+  void set_feed(int feed, double value) override;
 
   const Frame& platform() const override { return platform_; }
   Wrench wrench() const override { return wrench_; }

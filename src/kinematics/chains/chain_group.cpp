@@ -50,7 +50,7 @@ double ChainGroup<Space>::held(int feed) const {
 }
 
 template <class Space>
-void ChainGroup<Space>::hold(int feed, double value) {
+void ChainGroup<Space>::set_feed(int feed, double value) {
   TendonConstraint& hold = state_.hold[at(feed)];
   const std::size_t fed = fed_tendon(leg(feed), state_.legs[at(feed)], hold);
   if (hold.length_of >= 0)

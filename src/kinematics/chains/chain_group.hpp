@@ -36,7 +36,7 @@ class ChainGroup final : public LimbGroup<Space> {
   int feeds() const override { return limbs(); }
   int input_of(int feed) const override { return feed; }
   double held(int feed) const override;
-  void hold(int feed, double value) override;
+  void set_feed(int feed, double value) override;
 
   const Frame& platform() const override { return platform_; }
   Wrench wrench() const override { return state_.wrench; }

@@ -152,8 +152,8 @@ bool turn_about_pin(const ScaledLegs& legs, Found& found) {
 }
 
 /// How the search ended, and in words.
-void judge(std::span<const PlatformConstraint<2>> given, const ScaledLegs& legs, const Found& found,
-           bool binds, Report& report) {
+void report_search(std::span<const PlatformConstraint<2>> given, const ScaledLegs& legs, const Found& found,
+                   bool binds, Report& report) {
   if (!found.overfull() && binds && !found.empty()) return;
   const bool torn = found.empty() && are_torn(given, report);
   if (torn || (found.empty() && binds)) {
@@ -218,7 +218,7 @@ PlanarModes planar_modes(std::span<const PlatformConstraint<2>> legs) {
     sextic.each_pose([&](const Motion& pose) { found.add(pose); });
   }
   found.write(modes, legs);
-  judge(legs, scaled, found, binds, modes.report);
+  report_search(legs, scaled, found, binds, modes.report);
   return modes;
 }
 

@@ -43,10 +43,10 @@ void RodBatch::from_lane(int lane) {
                          {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
 }
 
-RodQuestion RodBatch::question_of(int lane, bool judges) const {
+RodQuestion RodBatch::question_of(int lane, bool check_stability) const {
   RodQuestion question;
   for (int k = 0; k < 6; ++k) question.wrench[k] = poses_.wrench[k][lane];
-  question.check_stability = judges;
+  question.check_stability = check_stability;
   return question;
 }
 
@@ -66,8 +66,8 @@ bool RodBatch::settles_from_home(int lane, Numbers inputs, Report& report) {
 }
 
 /// One pose alone: from where the lane was, else from home.
-bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Report& report) {
-  RodQuestion question = question_of(lane, judges);
+bool RodBatch::solve_lane(int lane, Numbers inputs, bool check_stability, Report& report) {
+  RodQuestion question = question_of(lane, check_stability);
   if (knows_[at(lane)]) {
     from_lane(lane);
     system_->set_wrench(question.wrench);
@@ -82,7 +82,7 @@ bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Report& report)
   }
   knows_[at(lane)] = work_->is_solved;
   if (!work_->is_solved) return false;
-  if (report.status == Status::unstable && !judges) report.status = Status::converged;
+  if (report.status == Status::unstable && !check_stability) report.status = Status::converged;
   take_system(lane);
   return true;
 }
@@ -181,8 +181,8 @@ void RodBatch::walk_from(const Home& home, std::span<const double> rows, const R
   }
 }
 
-void RodBatch::solve_from_home(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
-                               const Found& found) {
+void RodBatch::solve_from_home(std::span<const double> rows, const RodGroup::Wrench& wrench,
+                               bool check_stability, const Found& found) {
   constexpr std::size_t least = 3;  // fewer are sooner solved alone
   const std::size_t inputs = at(system_->inputs()), count = found.statuses.size();
   const Home home = count >= least ? lanes_at_home() : Home();
@@ -202,7 +202,8 @@ void RodBatch::solve_from_home(std::span<const double> rows, const RodGroup::Wre
     const int steps = way_from(home, block, wrench);
     if (std::ranges::any_of(knows_, std::identity())) {
       walk_from(home, block, wrench, steps);
-      if (judges) rod_kernels::advance(rods_, {.moves = false, .renews = true, .judges = true}, poses_);
+      if (check_stability)
+        rod_kernels::advance(rods_, {.moves = false, .renews = true, .counts_unstable = true}, poses_);
     }
     for (int k = 0; k < 6; ++k) std::fill_n(poses_.wrench[k], rod_lanes, wrench[k]);
     alignas(64) RodLane truncation;
@@ -212,9 +213,9 @@ void RodBatch::solve_from_home(std::span<const double> rows, const RodGroup::Wre
       report.residual = poses_.error[lane];
       const bool is_sure = knows_[at(lane)] && poses_.error[lane] <= rod_tolerance &&
                            truncation[lane] <= system_->traits().quick_truncation &&
-                           !(judges && poses_.unstable[lane] > 0);
+                           !(check_stability && poses_.unstable[lane] > 0);
       knows_[at(lane)] = false;  // another way would not be from home
-      if (is_sure || solve_lane(lane, block.subspan(at(lane) * inputs, inputs), judges, report))
+      if (is_sure || solve_lane(lane, block.subspan(at(lane) * inputs, inputs), check_stability, report))
         put(lane, first + at(lane), report, found);
       else
         found.statuses[first + at(lane)] = report.status;
@@ -222,7 +223,7 @@ void RodBatch::solve_from_home(std::span<const double> rows, const RodGroup::Wre
   }
 }
 
-void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
+void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool check_stability,
                      const Found& found) {
   const std::span<Status> statuses = found.statuses;
   const std::size_t inputs = at(system_->inputs()), count = statuses.size();
@@ -246,7 +247,8 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
     }
     if (std::ranges::any_of(knows_, std::identity())) {
       walk();
-      if (judges) rod_kernels::advance(rods_, {.moves = false, .renews = true, .judges = true}, poses_);
+      if (check_stability)
+        rod_kernels::advance(rods_, {.moves = false, .renews = true, .counts_unstable = true}, poses_);
     }
     alignas(64) RodLane truncation;
     rod_kernels::truncation(rods_, truncation);
@@ -254,12 +256,12 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
     for (int lane = 0; lane < rod_lanes; ++lane) {
       if (!has_row(lane)) continue;
       Report report;
-      report.status = judges && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
+      report.status = check_stability && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
       report.residual = poses_.error[lane];
       if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
           !(truncation[lane] <= system_->traits().quick_truncation)) {
         is_renewed = true;
-        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), judges, report)) {
+        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), check_stability, report)) {
           statuses[row(lane)] = report.status;
           continue;
         }

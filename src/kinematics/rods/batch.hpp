@@ -3,7 +3,7 @@
 /// each lane walks along its own, and a pose that does not come at once is solved alone.
 #pragma once
 #include "kinematics/rods/solve.hpp"
-#include "robot/rods/rod_system.hpp"
+#include "robot/rods/elastica_system.hpp"
 
 namespace sinew::inline v1 {
 
@@ -20,12 +20,13 @@ class RodBatch {
   };
 
   /// @param rows inputs of every pose, one after the other
-  /// @param judges whether it is asked if they hold by themselves
+  /// @param check_stability whether it is asked if they hold by themselves
   /// Poses as those of a quick resumed answer.
-  void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges, const Found& found);
+  void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool check_stability,
+             const Found& found);
 
   /// The same, each row by a way of its own from home, where the system is.
-  void solve_from_home(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
+  void solve_from_home(std::span<const double> rows, const RodGroup::Wrench& wrench, bool check_stability,
                        const Found& found);
 
  private:
@@ -42,14 +43,14 @@ class RodBatch {
   void to_lane(int lane);
   void from_lane(int lane);
   void take_system(int lane);
-  RodQuestion question_of(int lane, bool judges) const;
+  RodQuestion question_of(int lane, bool check_stability) const;
   bool settles_from_home(int lane, Numbers inputs, Report& report);
-  bool solve_lane(int lane, Numbers inputs, bool judges, Report& report);
+  bool solve_lane(int lane, Numbers inputs, bool check_stability, Report& report);
   double worst() const;
   void walk();
 
   RodWork* work_;
-  RodSystem* system_;
+  ElasticaSystem* system_;
   SE3<double> home_;
   std::vector<CoarseRods> rods_;
   std::vector<CoarseRods::State> before_;

@@ -69,7 +69,7 @@ class RodProblem : public LoadProblem<Spatial> {
     if (way_.holds_pose)
       system_.set_platform(way_.pose(lambda));
     else
-      for (int k = 0; k < system_.feeds(); ++k) system_.hold(k, now.lengths[at(k)]);
+      for (int k = 0; k < system_.feeds(); ++k) system_.set_feed(k, now.lengths[at(k)]);
   }
   /// @}
 

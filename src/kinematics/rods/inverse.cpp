@@ -125,7 +125,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const IndependentPo
     system.set_wrench(from.wrench + next * (question.wrench - from.wrench));
     for (int k = 0; k < system.feeds(); ++k) {
       const int first = first_of_input(system, k);
-      system.hold(k, system.held(first) + (1 - next) * (from.lengths[at(k)] - from.lengths[at(first)]));
+      system.set_feed(k, system.held(first) + (1 - next) * (from.lengths[at(k)] - from.lengths[at(first)]));
     }
     const auto ahead = with(system.platform(), now);
     bool is_reached = false;

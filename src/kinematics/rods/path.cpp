@@ -16,7 +16,7 @@ double size_of(const Vec<double, 6>& twist, double radius) {
 
 void set(RodGroup& system, const RodTarget& from, const RodTarget& to, double part) {
   for (int k = 0; k < system.feeds(); ++k)
-    system.hold(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], part));  // exact at the end
+    system.set_feed(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], part));  // exact at the end
   system.set_wrench(from.wrench + part * (to.wrench - from.wrench));
 }
 

@@ -48,7 +48,7 @@ bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs) {
   follow_parameter(end, {{0.25, 1e-3, work.stop}, 0, any}, [&](double next, double taken) {
     system.save(work.spare);
     for (int k = 0; k < system.limbs(); ++k)
-      system.hold(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], next));
+      system.set_feed(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], next));
     double residual;
     if (system.correct_rods(end.iterations, residual, 1e-10))
       return ParameterStep{ParameterStep::reached, 1.5 * taken};

@@ -214,8 +214,8 @@ PairBounds pair_bounds(const ThreeArcPose& pose, const Piece& first, const Piece
   return bounds;
 }
 
-PairAnswer judge(const ThreeArcPose& pose, const Piece& first, const Piece& last, const PairBounds& bounds,
-                 int sign) {
+PairAnswer classify_pair(const ThreeArcPose& pose, const Piece& first, const Piece& last,
+                         const PairBounds& bounds, int sign) {
   const PositionBound bound = position_bound(pose, first, last, bounds, sign);
   const bool is_over_limit =
       bound.x.at[0] + bound.lean + bounds.second_order < pose.lowest_cosine() - rounding;

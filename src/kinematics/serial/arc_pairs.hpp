@@ -61,8 +61,8 @@ struct PairAnswer {
   Verdict verdict;
   OuterBends guess;
 };
-PairAnswer judge(const ThreeArcPose& pose, const Piece& first, const Piece& last, const PairBounds& bounds,
-                 int sign);
+PairAnswer classify_pair(const ThreeArcPose& pose, const Piece& first, const Piece& last,
+                         const PairBounds& bounds, int sign);
 
 /// The middle bend that turns the end of the first arc into the start of the last one.
 Vec2<double> middle_bend(const ThreeArcPose& pose, const OuterBends& outer);

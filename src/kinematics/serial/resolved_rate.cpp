@@ -77,7 +77,8 @@ double speed(const double* rows, int count) {
   return std::sqrt(std::max(linear, angular));
 }
 
-void judge(double missed, double wanted, const ResolvedRateOptions& options, ResolvedRate& answer) {
+void report_shortfall(double missed, double wanted, const ResolvedRateOptions& options,
+                      ResolvedRate& answer) {
   Report& report = answer.report;
   report.residual = missed;
   if (missed <= options.tolerance * wanted) return;
@@ -123,7 +124,7 @@ ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends
   const double wanted = length * speed(system.r, system.rows);
   BoundedStep::Row unknown;
   answer.held = solve_rates(options.damping, system, unknown) - fixed_unknowns(robot);
-  judge(length * speed(system.r, system.rows), wanted, options, answer);
+  report_shortfall(length * speed(system.r, system.rows), wanted, options, answer);
   for (std::size_t m = 0; m < bends.size(); ++m) {
     const Bend rate = bend_change(robot.sections[m], bends[m], unknown[2 * m], unknown[2 * m + 1]);
     work.bend_rates[2 * m] = rate.x();

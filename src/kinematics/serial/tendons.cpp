@@ -48,7 +48,7 @@ void set_extensions(const Section& at_rest, std::size_t m, double extension, Ser
 }
 
 /// What the tendons of a section say, if it is worse than what was found before.
-void judge_tendons(std::size_t m, std::span<const double> slack, double tolerance, Report& report) {
+void report_tendons(std::size_t m, std::span<const double> slack, double tolerance, Report& report) {
   const auto [least, most] = std::ranges::minmax(slack);
   if (kernel::tendon_state(least, tolerance) == kernel::TendonState::over_tensioned)
     say_tendon(
@@ -180,7 +180,7 @@ Report bends_of_changes(const SerialRobot& robot, Numbers changes, kernel::Model
       name_section(report.message, m);
       report.message.append(" would have to bend a joint by more than half a turn");
     }
-    if (report.status != Status::unreachable) judge_tendons(m, slack, tolerance, report);
+    if (report.status != Status::unreachable) report_tendons(m, slack, tolerance, report);
     first += count;
   }
   if (report.status == Status::unreachable) return report;

@@ -64,7 +64,7 @@ class BoxSearch {
     for (const unsigned bit : {1u, 2u}) {
       if (!(pair.signs & bit)) continue;
       const int sign = bit == 1 ? 1 : -1;
-      const PairAnswer answer = judge(pose_, first, last, bounds, sign);
+      const PairAnswer answer = classify_pair(pose_, first, last, bounds, sign);
       const bool is_done = answer.verdict == Verdict::empty ||
                            (answer.verdict == Verdict::single && is_solved(first, last, answer.guess));
       if (!is_done && is_smallest) leave_open(first, last, sign);

@@ -293,7 +293,7 @@ Report refused(Status status, std::string_view why, std::size_t posture, std::st
   return report;
 }
 
-Report judge(const SerialRobot& robot, std::span<const SerialPosture> postures) {
+Report check_postures(const SerialRobot& robot, std::span<const SerialPosture> postures) {
   for (std::size_t k = 0; k < postures.size(); ++k) {
     if (postures[k].bends.size() != robot.sections.size())
       return refused(Status::bad_input, "not a bend for each section in posture ", k);
@@ -324,7 +324,7 @@ TrajectoryPoint at_rest(const SerialPosture& posture, double time) {
 Trajectory time_optimal_trajectory(const SerialRobot& robot, std::span<const SerialPosture> postures,
                                    const TrajectoryLimits& limits, double period) {
   Trajectory trajectory;
-  trajectory.report = judge(robot, postures);
+  trajectory.report = check_postures(robot, postures);
   if (!trajectory.report.ok()) return trajectory;
   if (postures.empty() || !are_positive(limits, period)) {
     trajectory.report.status = Status::bad_input;

@@ -70,7 +70,7 @@ class LimbGroup {
   virtual int feeds() const = 0;
   virtual int input_of(int feed) const = 0;
   virtual double held(int feed) const = 0;
-  virtual void hold(int feed, double value) = 0;
+  virtual void set_feed(int feed, double value) = 0;  ///< from now on it is held at this
   /// To where what the limbs allow ends: positive on this side.
   virtual double margin() const { return 1; }
   /// @}

@@ -183,7 +183,7 @@ void GeneralSystem::restore(const LimbState& from) {
 }
 
 void GeneralSystem::set_inputs(Numbers inputs) {
-  for (int k = 0; k < limbs(); ++k) hold(k, inputs[v1::at(input_of(k))]);
+  for (int k = 0; k < limbs(); ++k) set_feed(k, inputs[v1::at(input_of(k))]);
 }
 
 void GeneralSystem::weigh(int rod, const Vec3<double>& weight) {

@@ -80,7 +80,7 @@ class GeneralSystem : public HeavyRodGroup {
   Vec3<double> platform_point(int rod) const override { return at(rod).platform_point; }
   double stiffness(int rod) const override { return at(rod).stiffness; }  ///< the mean of both ways
   double length(int rod) const override { return lanes(rod).length[lane(rod)]; }
-  void hold(int rod, double length) override { lanes(rod).length[lane(rod)] = length; }
+  void set_feed(int rod, double length) override { lanes(rod).length[lane(rod)] = length; }
   void set_inputs(Numbers inputs) override;
   Wrench wrench() const final { return wrench_; }
   void set_wrench(const Wrench& wrench) final { wrench_ = wrench; }

@@ -16,7 +16,7 @@
 namespace sinew::inline v1 {
 
 /// Without closing legs it does what `Rods` does.
-/// @tparam Rods a group of rods: RodSystem, TangentSystem or GeneralSystem
+/// @tparam Rods a group of rods: ElasticaSystem, TangentSystem or GeneralSystem
 template <class Rods>
 class Mechanism final : public Rods {
  public:
@@ -53,9 +53,9 @@ class Mechanism final : public Rods {
   /// @name What is held: lengths of the rods, then what the closing legs are driven by
   /// @{
   double held(int feed) const override { return is_rod(feed) ? Rods::length(feed) : value_of(feed); }
-  void hold(int feed, double value) override {
+  void set_feed(int feed, double value) override {
     if (is_rod(feed))
-      Rods::hold(feed, value);
+      Rods::set_feed(feed, value);
     else
       values_[at(Rods::input_of(feed))] = value;
   }

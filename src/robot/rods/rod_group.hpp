@@ -11,7 +11,7 @@
 
 namespace sinew::inline v1 {
 
-class RodSystem;
+class ElasticaSystem;
 
 /// Of rods that are laid to their home as fields of tangents.
 inline constexpr std::string_view no_rest_of_tangents =
@@ -105,7 +105,7 @@ class RodGroup : public LimbGroup<Spatial> {
   /// @}
 
   /// Itself, if they are elasticas without weight.
-  virtual RodSystem* elastica() { return nullptr; }
+  virtual ElasticaSystem* elastica() { return nullptr; }
 
  protected:
   /// Turned by half-angle quaternion: like the exponential to second order, and exactly a rotation.

@@ -675,7 +675,7 @@ HWY_INLINE void move_platforms(PoseLanes& poses, int i) {
 HWY_INLINE Pack one_where(hn::Mask<Tag> mask) { return hn::IfThenElseZero(mask, all(1)); }
 HWY_INLINE Pack one_if_negative(Pack x) { return one_where(x < all(0)); }
 
-/// As RodSystem::unstable_with_tip_held in the plane.
+/// As ElasticaSystem::unstable_with_tip_held in the plane.
 HWY_INLINE Pack unstable_in_plane(const CoarseRods& rods, int i) {
   Pack count = all(0);
   for (const RodLane& pivot : rods.pivot) count = count + one_if_negative(load(pivot + i));
@@ -767,7 +767,8 @@ void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& p
         stiffen(rod, i);
         sum.stiffness.add(tip_stiffness(rod, i), load3(rod.arm, i), force(rod, i));
       }
-      if (step.judges) sum.unstable = sum.unstable + unstable_in_plane(rod, i) + unstable_aside(rod, i);
+      if (step.counts_unstable)
+        sum.unstable = sum.unstable + unstable_in_plane(rod, i) + unstable_aside(rod, i);
       close_gaps(rod, i, sum.closing);
     }
   for (int p = 0; p < packs; ++p) {
@@ -780,7 +781,7 @@ void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& p
     }
     store(errors.worst + errors.sum * all(0), poses.error + i);
     if (step.renews) factor(sum.stiffness, poses, i);
-    if (step.judges) store(sum.unstable + negative_directions(sum.stiffness), poses.unstable + i);
+    if (step.counts_unstable) store(sum.unstable + negative_directions(sum.stiffness), poses.unstable + i);
   }
 }
 /// @}

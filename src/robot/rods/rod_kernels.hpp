@@ -1,6 +1,6 @@
 /// @file rod_kernels.hpp
 /// The inner loops of rods in SIMD lanes, in the widest instruction set this machine has. One function is one
-/// sweep over the rods; robot/rods/rod_system.hpp makes Newton's method of them.
+/// sweep over the rods; robot/rods/elastica_system.hpp makes Newton's method of them.
 #pragma once
 #include <span>
 
@@ -24,7 +24,7 @@ struct alignas(64) RodSums {
   double twist[8];       ///< Newton's step (δp, δφ), likewise
   double stiffness[36];  ///< ∂wrench/∂(δp, δφ), rows first
   double rod_error;      ///< largest gap: closure over length, or of the rods' own equations; NaN if any is
-  double error;          ///< the balance of the platform too, see RodSystem::evaluate
+  double error;          ///< the balance of the platform too, see ElasticaSystem::evaluate
 };
 
 /// Lengths fed to the rods of a group [m].
@@ -38,17 +38,17 @@ struct alignas(64) PoseLanes {
   RodLane wrench[6];    ///< of the world on the platform
   RodLane missing[6];   ///< to balance, once the gaps of the rods are closed
   RodLane twist[6];     ///< the last step
-  RodLane error;        ///< as RodSystem::evaluate, of each pose
+  RodLane error;        ///< as ElasticaSystem::evaluate, of each pose
   RodLane factors[36];  ///< of the platforms' stiffness
   RodLane unstable;     ///< directions in which the pose does not hold by itself, where that was asked
 };
 
 /// What is done to eight poses in one sweep over their rods.
 struct PoseStep {
-  bool moves = true;          ///< else they are evaluated where they are
-  bool from_scratch = false;  ///< see RodSystem::evaluate
-  bool renews = false;        ///< factors
-  bool judges = false;        ///< counts unstable directions by them
+  bool moves = true;             ///< else they are evaluated where they are
+  bool from_scratch = false;     ///< see ElasticaSystem::evaluate
+  bool renews = false;           ///< factors
+  bool counts_unstable = false;  ///< directions, by the pivots of these factors
 };
 
 namespace rod_kernels {
@@ -72,7 +72,7 @@ void step(std::span<FineRods> groups, const RodPlatform& platform, bool fresh, R
 void apply(std::span<CoarseRods> groups, const double* step, const RodFeed* fed);
 void apply(std::span<FineRods> groups, const double* step, const RodFeed* fed);
 
-/// Of each lane the largest of all groups: see RodSystem::truncation.
+/// Of each lane the largest of all groups: see ElasticaSystem::truncation.
 void truncation(std::span<const CoarseRods> groups, double* largest);
 void truncation(std::span<const FineRods> groups, double* largest);
 

@@ -5,8 +5,8 @@
 
 #include "base/at.hpp"
 #include "link/galerkin.hpp"
+#include "robot/rods/elastica_system.hpp"
 #include "robot/rods/general_system.hpp"
-#include "robot/rods/rod_system.hpp"
 #include "robot/rods/tangent_system.hpp"
 
 namespace sinew::inline v1 {
@@ -54,7 +54,7 @@ bool rest_shape(double angle, std::array<double, N + 1>& unknowns) {
 
 }  // namespace
 
-bool RodSystem::rest_at(const SE3<double>& platform) {
+bool ElasticaSystem::rest_at(const SE3<double>& platform) {
   const auto& basis = GalerkinBasis<coarse_nodes>::get();
   set_platform(platform);
   for (int k = 0; k < limbs(); ++k) {

@@ -262,6 +262,72 @@ HWY_INLINE void diagonal(const TangentRods& rods, int node, int i, double bendin
   d22 = minus(whole, soft * b, b);
 }
 
+/// A row of the elimination: of U = LD the blocks left of the diagonal, that itself, and the right sides.
+struct Row {
+  Block raw[degree];
+  Pack d11, d12, d22, column[2][4];
+};
+
+/// The j-th block of a node's row, `other` being its node, less what the nodes before `other` explain.
+/// @param u the block of H
+HWY_INLINE Block eliminate_block(const TangentRods& rods, int i, int first, int j, Block u, const Row& row) {
+  const int other = first + j;
+  // the other's row begins before this one's where it ends an element, and after it never
+  const int at = TangentRods::row_of(other) + first - TangentRods::first_of(other);
+  for (int k = 0; k < j; ++k) {
+    const Block& raw = row.raw[k];
+    const Block l = load_block(rods.lower[at + k], i);
+    u.aa = minus(minus(u.aa, raw.aa, l.aa), raw.ab, l.ab);
+    u.ab = minus(minus(u.ab, raw.aa, l.ba), raw.ab, l.bb);
+    u.ba = minus(minus(u.ba, raw.ba, l.aa), raw.bb, l.ab);
+    u.bb = minus(minus(u.bb, raw.ba, l.ba), raw.bb, l.bb);
+  }
+  const Pack inner = load(rods.inner[other] + i);
+  u.ab = minus(u.ab, u.aa, inner);
+  u.bb = minus(u.bb, u.ba, inner);
+  return u;
+}
+
+/// Takes a block of the row from the node's own block and from its right sides; leaves the block of L.
+HWY_INLINE void take_block(TangentRods& rods, int i, int other, const Block& u, RodLane* to, Row& row) {
+  const Pack p = load(rods.pivot[other][0] + i), q = load(rods.pivot[other][1] + i);
+  const Block l = {u.aa * p, u.ab * q, u.ba * p, u.bb * q};
+  store(l.aa, to[0] + i);
+  store(l.ab, to[1] + i);
+  store(l.ba, to[2] + i);
+  store(l.bb, to[3] + i);
+  row.d11 = minus(minus(row.d11, u.aa, l.aa), u.ab, l.ab);
+  row.d12 = minus(minus(row.d12, u.ba, l.aa), u.bb, l.ab);
+  row.d22 = minus(minus(row.d22, u.ba, l.ba), u.bb, l.bb);
+#pragma GCC unroll 4
+  for (int c = 0; c < 4; ++c) {
+    const Pack a = load(rods.eliminated[other][2 * c] + i), b = load(rods.eliminated[other][2 * c + 1] + i);
+    row.column[0][c] = minus(minus(row.column[0][c], l.aa, a), l.ab, b);
+    row.column[1][c] = minus(minus(row.column[1][c], l.ba, a), l.bb, b);
+  }
+}
+
+/// The node's own block, factored but at the tip, and its right sides.
+HWY_INLINE void finish_row(TangentRods& rods, int i, int node, int tip, Row& row) {
+  if (node == tip) {
+    store(row.d11, rods.tip_pivot[0] + i);
+    store(row.d12, rods.tip_pivot[1] + i);
+    store(row.d22, rods.tip_pivot[2] + i);
+  } else {
+    // 1/d₁₁ and d₁₁/det by one division
+    const Pack det = minus(row.d11 * row.d22, row.d12, row.d12), both = all(1) / (row.d11 * det);
+    const Pack inverse = det * both, inner = row.d12 * inverse;
+    store(inverse, rods.pivot[node][0] + i);
+    store(inner, rods.inner[node] + i);
+    store(row.d11 * row.d11 * both, rods.pivot[node][1] + i);
+    for (int c = 0; c < 4; ++c) row.column[1][c] = minus(row.column[1][c], inner, row.column[0][c]);
+  }
+  for (int c = 0; c < 4; ++c) {
+    store(row.column[0][c], rods.eliminated[node][2 * c] + i);
+    store(row.column[1][c], rods.eliminated[node][2 * c + 1] + i);
+  }
+}
+
 /// H = LDLᵀ by nodes from the base to the tip, whose own block is left as `tip_pivot`; the columns too.
 HWY_INLINE void factor(TangentRods& rods, int i, int elements) {
   const auto& basis = LobattoBasis<element_degree>::get();
@@ -276,77 +342,47 @@ HWY_INLINE void factor(TangentRods& rods, int i, int elements) {
     const Pack3 e1 = load3(rods.across[node][0], i), e2 = load3(rods.across[node][1], i);
     double bending = basis.bending[own][own] * elements;
     if (own == degree && node < tip) bending += basis.bending[0][0] * elements;
-    Pack d11, d12, d22, column[2][4];
-    diagonal(rods, node, i, bending, place, loading, force, weight, d11, d12, d22);
-    drive_node(rods, node, i, place, loading, force, weight, column);
-    Block raw[degree];  // U = LD of this row
+    Row row;
+    diagonal(rods, node, i, bending, place, loading, force, weight, row.d11, row.d12, row.d22);
+    drive_node(rods, node, i, place, loading, force, weight, row.column);
     for (int j = 0; j < count; ++j) {
       const int other = first + j;
       const Pack scale = all(basis.bending[own][other - start] * elements);
       const Pack3 o1 = load3(rods.across[other][0], i), o2 = load3(rods.across[other][1], i);
-      Block u = {dot(e1, o1) * scale, dot(e1, o2) * scale, dot(e2, o1) * scale, dot(e2, o2) * scale};
-      // the other's row begins before this one's where it ends an element, and after it never
-      const int other_first = TangentRods::first_of(other);
-      const int row = TangentRods::row_of(other) + first - other_first;
-      for (int k = 0; k < j; ++k) {
-        const Block l = load_block(rods.lower[row + k], i);
-        u.aa = minus(minus(u.aa, raw[k].aa, l.aa), raw[k].ab, l.ab);
-        u.ab = minus(minus(u.ab, raw[k].aa, l.ba), raw[k].ab, l.bb);
-        u.ba = minus(minus(u.ba, raw[k].ba, l.aa), raw[k].bb, l.ab);
-        u.bb = minus(minus(u.bb, raw[k].ba, l.ba), raw[k].bb, l.bb);
-      }
-      const Pack inner = load(rods.inner[other] + i);
-      u.ab = minus(u.ab, u.aa, inner);
-      u.bb = minus(u.bb, u.ba, inner);
-      raw[j] = u;
-      const Pack p = load(rods.pivot[other][0] + i), q = load(rods.pivot[other][1] + i);
-      const Block l = {u.aa * p, u.ab * q, u.ba * p, u.bb * q};
-      RodLane* to = rods.lower[TangentRods::row_of(node) + j];
-      store(l.aa, to[0] + i);
-      store(l.ab, to[1] + i);
-      store(l.ba, to[2] + i);
-      store(l.bb, to[3] + i);
-      d11 = minus(minus(d11, u.aa, l.aa), u.ab, l.ab);
-      d12 = minus(minus(d12, u.ba, l.aa), u.bb, l.ab);
-      d22 = minus(minus(d22, u.ba, l.ba), u.bb, l.bb);
-#pragma GCC unroll 4
-      for (int c = 0; c < 4; ++c) {
-        const Pack a = load(rods.eliminated[other][2 * c] + i),
-                   b = load(rods.eliminated[other][2 * c + 1] + i);
-        column[0][c] = minus(minus(column[0][c], l.aa, a), l.ab, b);
-        column[1][c] = minus(minus(column[1][c], l.ba, a), l.bb, b);
-      }
+      const Block h = {dot(e1, o1) * scale, dot(e1, o2) * scale, dot(e2, o1) * scale, dot(e2, o2) * scale};
+      row.raw[j] = eliminate_block(rods, i, first, j, h, row);
+      take_block(rods, i, other, row.raw[j], rods.lower[TangentRods::row_of(node) + j], row);
     }
-    if (node == tip) {
-      store(d11, rods.tip_pivot[0] + i);
-      store(d12, rods.tip_pivot[1] + i);
-      store(d22, rods.tip_pivot[2] + i);
-    } else {
-      // 1/d₁₁ and d₁₁/det by one division
-      const Pack det = minus(d11 * d22, d12, d12), both = all(1) / (d11 * det);
-      const Pack inverse = det * both, inner = d12 * inverse;
-      store(inverse, rods.pivot[node][0] + i);
-      store(inner, rods.inner[node] + i);
-      store(d11 * d11 * both, rods.pivot[node][1] + i);
-      for (int c = 0; c < 4; ++c) column[1][c] = minus(column[1][c], inner, column[0][c]);
-    }
-    for (int c = 0; c < 4; ++c) {
-      store(column[0][c], rods.eliminated[node][2 * c] + i);
-      store(column[1][c], rods.eliminated[node][2 * c + 1] + i);
-    }
+    finish_row(rods, i, node, tip, row);
   }
 }
 
-/// What the columns say of the tip: its stiffness, and what feeding does.
-HWY_INLINE void stiffen(TangentRods& rods, int i, int elements) {
-  const int tip = elements * degree;
-  const Pack length = load(rods.length + i), soft = load(rods.flexibility + i),
-             clamped = load(rods.clamped + i);
-  const Pack stretch = load(rods.stretch + i), shear = load(rods.shear + i);
-  const Pack3 weight = load3(rods.weight, i);
-  Pack gg[6], gl[3];
-  for (Pack& p : gg) p = all(0);
-  for (Pack& p : gl) p = all(0);
+/// A symmetric 3×3: 11, 12, 13, 22, 23, 33.
+struct Symmetric {
+  Pack at[6];
+};
+HWY_INLINE Pack3 times(const Symmetric& s, const Pack3& v) {
+  const Pack* p = s.at;
+  return {plus(plus(p[0] * v.x, p[1], v.y), p[2], v.z), plus(plus(p[1] * v.x, p[3], v.y), p[4], v.z),
+          plus(plus(p[2] * v.x, p[4], v.y), p[5], v.z)};
+}
+
+/// By cofactors.
+HWY_INLINE Symmetric inverse_of(const Symmetric& m) {
+  const Pack* c = m.at;
+  const Pack k11 = minus(c[3] * c[5], c[4], c[4]), k12 = minus(c[2] * c[4], c[1], c[5]),
+             k13 = minus(c[1] * c[4], c[2], c[3]);
+  const Pack inverse = all(1) / plus(plus(c[0] * k11, c[1], k12), c[2], k13);
+  return {{k11 * inverse, k12 * inverse, k13 * inverse, minus(c[0] * c[5], c[2], c[2]) * inverse,
+           minus(c[1] * c[2], c[0], c[4]) * inverse, minus(c[0] * c[3], c[1], c[1]) * inverse}};
+}
+
+/// Through the nodes before the tip: GᵀH⁻¹G of the columns by force, GᵀH⁻¹ρ with that by length.
+HWY_INLINE void answer_of_nodes(const TangentRods& rods, int i, int tip, Symmetric& by_force,
+                                Pack (&by_length)[3]) {
+  Pack* gg = by_force.at;
+  for (int k = 0; k < 6; ++k) gg[k] = all(0);
+  for (Pack& p : by_length) p = all(0);
   for (int node = 1; node < tip; ++node)
     for (int a = 0; a < 2; ++a) {
       const Pack p = load(rods.pivot[node][a] + i);
@@ -359,9 +395,13 @@ HWY_INLINE void stiffen(TangentRods& rods, int i, int elements) {
       gg[3] = plus(gg[3], s[1], v[1]);
       gg[4] = plus(gg[4], s[1], v[2]);
       gg[5] = plus(gg[5], s[2], v[2]);
-      for (int c = 0; c < 3; ++c) gl[c] = plus(gl[c], s[c], v[3]);
+      for (int c = 0; c < 3; ++c) by_length[c] = plus(by_length[c], s[c], v[3]);
     }
-  // the tip's own block: inverted where it is free
+}
+
+/// The tip's columns X, that by length last, and X D⁻¹: its own block is inverted where the tip is free.
+HWY_INLINE void answer_of_tip(TangentRods& rods, int i, int tip, Pack clamped, Pack (&x)[2][4],
+                              Pack (&y)[2][3]) {
   const Pack d11 = load(rods.tip_pivot[0] + i), d12 = load(rods.tip_pivot[1] + i),
              d22 = load(rods.tip_pivot[2] + i);
   const Pack by = (all(1) - clamped) / minus(d11 * d22, d12, d12);
@@ -369,19 +409,22 @@ HWY_INLINE void stiffen(TangentRods& rods, int i, int elements) {
   store(s11, rods.tip_soft[0] + i);
   store(s12, rods.tip_soft[1] + i);
   store(s22, rods.tip_soft[2] + i);
-  Pack x[2][4], y[2][3];  // X and the length's; X D⁻¹
   for (int a = 0; a < 2; ++a)
     for (int c = 0; c < 4; ++c) x[a][c] = load(rods.eliminated[tip][2 * c + a] + i);
   for (int c = 0; c < 3; ++c) {
     y[0][c] = plus(x[0][c] * s11, x[1][c], s12);
     y[1][c] = plus(x[0][c] * s12, x[1][c], s22);
   }
-  const Pack cube = length * length * length * soft;
-  // stretching: E = Σ w (β t tᵀ + 1/GA), and what a longer rod of its own weight does
-  Pack ee[6];
-  for (Pack& p : ee) p = all(0);
+}
+
+/// Stretching: E = Σ w (β t tᵀ + 1/GA). @returns what a longer rod of its own weight does
+HWY_INLINE Pack3 answer_of_stretch(const TangentRods& rods, int i, int elements, Symmetric& by_force) {
+  const Pack stretch = load(rods.stretch + i), shear = load(rods.shear + i);
+  const Pack3 weight = load3(rods.weight, i);
+  Pack* ee = by_force.at;
+  for (int k = 0; k < 6; ++k) ee[k] = all(0);
   Pack3 grown{all(0), all(0), all(0)};
-  for (int node = 0; node <= tip; ++node) {
+  for (int node = 0; node <= elements * degree; ++node) {
     const Place place = place_of(node, elements);
     const Pack3 t = load3(rods.tangent[node], i), w = scaled(t, all(place.weight) * stretch);
     ee[0] = plus(ee[0], w.x, t.x);
@@ -395,50 +438,50 @@ HWY_INLINE void stiffen(TangentRods& rods, int i, int elements) {
   ee[0] = ee[0] + shear;
   ee[3] = ee[3] + shear;
   ee[5] = ee[5] + shear;
+  return grown;
+}
+
+/// What the columns say of the tip: its stiffness, and what feeding does.
+HWY_INLINE void stiffen(TangentRods& rods, int i, int elements) {
+  const int tip = elements * degree;
+  const Pack length = load(rods.length + i), soft = load(rods.flexibility + i),
+             clamped = load(rods.clamped + i);
+  Symmetric bends, stretches, compliance;
+  Pack gl[3], x[2][4], y[2][3];
+  answer_of_nodes(rods, i, tip, bends, gl);
+  answer_of_tip(rods, i, tip, clamped, x, y);
+  const Pack3 grown = answer_of_stretch(rods, i, elements, stretches);
+  const Pack cube = length * length * length * soft;
   constexpr int pairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
-  Pack c6[6];
   for (int k = 0; k < 6; ++k) {
     const int r = pairs[k][0], c = pairs[k][1];
-    c6[k] = plus(length * ee[k], cube, plus(plus(gg[k], y[0][r], x[0][c]), y[1][r], x[1][c]));
+    compliance.at[k] =
+        plus(length * stretches.at[k], cube, plus(plus(bends.at[k], y[0][r], x[0][c]), y[1][r], x[1][c]));
   }
-  // S = C⁻¹ by cofactors
-  const Pack k11 = minus(c6[3] * c6[5], c6[4], c6[4]), k12 = minus(c6[2] * c6[4], c6[1], c6[5]),
-             k13 = minus(c6[1] * c6[4], c6[2], c6[3]);
-  const Pack inverse = all(1) / plus(plus(c6[0] * k11, c6[1], k12), c6[2], k13);
-  const Pack s6[6] = {k11 * inverse,
-                      k12 * inverse,
-                      k13 * inverse,
-                      minus(c6[0] * c6[5], c6[2], c6[2]) * inverse,
-                      minus(c6[1] * c6[2], c6[0], c6[4]) * inverse,
-                      minus(c6[0] * c6[3], c6[1], c6[1]) * inverse};
-  for (int k = 0; k < 6; ++k) store(s6[k], rods.stiffness[k] + i);
-  const auto stiff = [&](const Pack3& v) -> Pack3 {
-    return {plus(plus(s6[0] * v.x, s6[1], v.y), s6[2], v.z), plus(plus(s6[1] * v.x, s6[3], v.y), s6[4], v.z),
-            plus(plus(s6[2] * v.x, s6[4], v.y), s6[5], v.z)};
-  };
+  const Symmetric stiffness = inverse_of(compliance);
+  for (int k = 0; k < 6; ++k) store(stiffness.at[k], rods.stiffness[k] + i);
   // a clamp: Z = −S L X, W = (EI/L) D + L² Xᵀ S X, Q = [e₂, −e₁]
   const Pack3 x1 = {x[0][0], x[0][1], x[0][2]}, x2 = {x[1][0], x[1][1], x[1][2]};
-  const Pack held = clamped * length;
-  const Pack3 z1 = stiff(scaled(x1, hn::Neg(held))), z2 = stiff(scaled(x2, hn::Neg(held)));
+  const Pack held = clamped * length, bent = clamped / (soft * length);
+  const Pack3 z1 = times(stiffness, scaled(x1, hn::Neg(held))),
+              z2 = times(stiffness, scaled(x2, hn::Neg(held)));
   store3(z1, rods.coupling[0], i);
   store3(z2, rods.coupling[1], i);
-  const Pack bent = clamped / (soft * length);
-  store(minus(bent * d11, held, dot(x1, z1)), rods.bending[0] + i);
-  store(minus(bent * d12, held, dot(x1, z2)), rods.bending[1] + i);
-  store(minus(bent * d22, held, dot(x2, z2)), rods.bending[2] + i);
+  store(minus(bent * load(rods.tip_pivot[0] + i), held, dot(x1, z1)), rods.bending[0] + i);
+  store(minus(bent * load(rods.tip_pivot[1] + i), held, dot(x1, z2)), rods.bending[1] + i);
+  store(minus(bent * load(rods.tip_pivot[2] + i), held, dot(x2, z2)), rods.bending[2] + i);
   store3(scaled(load3(rods.across[tip][1], i), clamped), rods.turned[0], i);
   store3(scaled(load3(rods.across[tip][0], i), hn::Neg(clamped)), rods.turned[1], i);
   // feeding: ℓ = ∂p/∂L − L GL − L X D⁻¹ ρ_L
   const Pack3 ahead = plus(scaled(load3(rods.tip, i), all(1) / length), grown, length);
-  const auto fed = [&](Pack own, Pack gl_c, int c) {
-    return minus(own, length, plus(plus(gl_c, y[0][c], x[0][3]), y[1][c], x[1][3]));
+  const auto fed = [&](Pack own, int c) {
+    return minus(own, length, plus(plus(gl[c], y[0][c], x[0][3]), y[1][c], x[1][3]));
   };
-  const Pack3 longer = {fed(ahead.x, gl[0], 0), fed(ahead.y, gl[1], 1), fed(ahead.z, gl[2], 2)};
-  const Pack3 feed = scaled(stiff(longer), all(-1));
-  const Pack moment[2] = {load(rods.gap[tip][0] + i), load(rods.gap[tip][1] + i)};
+  const Pack3 longer = {fed(ahead.x, 0), fed(ahead.y, 1), fed(ahead.z, 2)};
+  const Pack3 feed = scaled(times(stiffness, longer), all(-1));
   Pack by_length[2];
   for (int a = 0; a < 2; ++a) {
-    const Pack own = bent * (x[a][3] - moment[a] / length);
+    const Pack own = bent * (x[a][3] - load(rods.gap[tip][a] + i) / length);
     by_length[a] = minus(own, held, dot(a == 0 ? x1 : x2, feed));
     store(by_length[a], rods.feed_moment[a] + i);
   }

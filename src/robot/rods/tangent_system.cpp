@@ -101,7 +101,7 @@ double TangentSystem::length(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return rods.length[i]; });
 }
 
-void TangentSystem::hold(int rod, double length) {
+void TangentSystem::set_feed(int rod, double length) {
   groups_[at(rod / rod_lanes)].length[rod % rod_lanes] = length;
   if (rod % rod_lanes == 0) fill_idle_lanes();
 }
@@ -364,7 +364,7 @@ RodResult TangentSystem::rod(int index) const {
   });
 }
 
-/// By the inertia of bordered matrices, as RodSystem: the negative directions of H on the constraint are
+/// By the inertia of bordered matrices, as ElasticaSystem: the negative directions of H on the constraint are
 /// neg(H) − neg(C), those of a free tip's own block among H's.
 std::array<int, 2> TangentSystem::unstable_with_tip_held(int index) const {
   return with_rod(index, [&](const TangentRods& rods, int i) -> std::array<int, 2> {

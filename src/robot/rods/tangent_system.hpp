@@ -1,6 +1,6 @@
 /// @file tangent_system.hpp
 /// Rods in space between a base and a platform as one system of equations: what Newton's method needs of a
-/// robot whose rods are clamped at the platform, heavy, or stretch. RodSystem is its fast special case.
+/// robot whose rods are clamped at the platform, heavy, or stretch. ElasticaSystem is its fast special case.
 /// Theory: docs/theory/tangent_rod.md
 #pragma once
 #include <algorithm>
@@ -29,7 +29,7 @@ class TangentSystem : public HeavyRodGroup {
   Vec3<double> platform_point(int rod) const override;
   double stiffness(int rod) const override;
   double length(int rod) const override;
-  void hold(int rod, double length) override;
+  void set_feed(int rod, double length) override;
   void set_inputs(Numbers inputs) override;
   Wrench wrench() const final { return Eigen::Map<const Wrench>(held_.wrench); }
   void set_wrench(const Wrench& wrench) final { Eigen::Map<Wrench>(held_.wrench) = wrench; }

@@ -154,6 +154,9 @@ class FrictionRod {
     double stored = 0;
   };
 
+  class GripProblem;
+  class RateProblem;
+
   void build(std::span<const RubbingTendon> tendons);
   void set(std::span<const TendonInput> inputs, std::span<const NodeLoad> loads);
   void evaluate();
@@ -161,6 +164,10 @@ class FrictionRod {
   Vec3<double> guided(const Segment& segment, const Guide& guide, std::size_t g) const;
   void linearise();
   void gradients();
+  Mat<double, 6, 6> omega_by_strain(std::size_t element, int point) const;
+  void find_twist(Segment& segment) const;
+  void find_length_gradient(Unit& unit) const;
+  void find_angle_gradient(Chain& chain, std::size_t k) const;
   void geometry_rates(const double* x, int stride, int columns, Eigen::MatrixXd& lengths_of,
                       Eigen::MatrixXd& angles_of) const;
   void tension_rates(const Eigen::MatrixXd& lengths_of, const Eigen::MatrixXd& angles_of,

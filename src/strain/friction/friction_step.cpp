@@ -152,6 +152,133 @@ bool FrictionRod::find_step() {
   return true;
 }
 
+/// The tensions of all spans at the end of a step: (c + LH⁻¹Lᵀ) t = e − what has come by slip, where each
+/// guide sticks or slips as it is taken to.
+class FrictionRod::GripProblem {
+ public:
+  GripProblem(FrictionRod& rod, int size)
+      : rod_(rod),
+        yields_(Eigen::MatrixXd::Zero(size, size)),
+        rows_(size, size),
+        stretch_(size),
+        right_(size),
+        t_(size),
+        content_(size) {}
+
+  void build(const Eigen::VectorXd& lengths);
+  bool solve();
+  /// Of a guide, or of a whole tendon, that does not answer as it was taken to.
+  struct Wrong {
+    Chain* chain;
+    std::size_t guide;
+    Grip to;
+    bool taut = true, exchanges = false;  ///< all of the tendon
+  };
+  std::vector<Wrong> find_wrong();
+  static void exchange(const Wrong& wrong);
+
+ private:
+  void find_wrong_guides(Chain& chain, double small, std::vector<Wrong>& wrong) const;
+
+  FrictionRod& rod_;
+  Eigen::MatrixXd yields_, rows_;
+  Eigen::VectorXd stretch_, right_, t_, content_;  ///< content: what comes by slip
+};
+
+/// @param lengths what spans of the rod become longer by in the step, at the tensions of the gradient
+void FrictionRod::GripProblem::build(const Eigen::VectorXd& lengths) {
+  for (const Chain& a : rod_.chains_) {
+    if (!a.moves) continue;
+    const int outer = a.has_outer ? 1 : 0, count = static_cast<int>(a.units.size());
+    for (int k = 0; k < count + outer; ++k) {
+      stretch_[a.first_span + k] = a.spans.stretch[at(k)];
+      yields_(a.first_span + k, a.first_span + k) = a.spans.compliance[at(k)];
+    }
+    for (int k = 0; k < count; ++k) stretch_[a.first_span + outer + k] += lengths[a.first_column + k];
+    for (const Chain& b : rod_.chains_) {
+      if (!b.moves) continue;
+      yields_.block(a.first_span + outer, b.first_span + (b.has_outer ? 1 : 0), count,
+                    static_cast<int>(b.units.size())) +=
+          rod_.length_answers_.block(a.first_column, b.first_column, count, static_cast<int>(b.units.size()));
+    }
+  }
+}
+
+/// With the guides' grips as they are taken; false where there are no such tensions.
+bool FrictionRod::GripProblem::solve() {
+  rows_.setZero();
+  right_.setZero();
+  for (const Chain& chain : rod_.chains_) {
+    if (!chain.moves) continue;
+    const int spans = static_cast<int>(chain.spans.stretch.size());
+    if (!chain.taut) {
+      for (int k = 0; k < spans; ++k) rows_(chain.first_span + k, chain.first_span + k) = 1;
+      continue;
+    }
+    int base = chain.first_span;
+    for (int k = 0; k < spans; ++k) {
+      const int line = chain.first_span + k;
+      if (k > 0 && chain.tensions.grips[at(k - 1)] != Grip::sticks) {  // its own row says how it follows
+        rows_(line, line) = 1;
+        rows_(line, line - 1) = -chain.tensions.ratio(chain.spans, at(k - 1));
+      } else {
+        base = line;
+      }
+      if (base == chain.first_span && chain.spans.held) {
+        if (k == 0) rows_(line, line) = 1, right_[line] = chain.spans.tension;
+      } else {
+        rows_.row(base) += yields_.row(line);
+        right_[base] += stretch_[line];
+      }
+    }
+  }
+  t_ = rows_.partialPivLu().solve(right_);
+  if (!t_.allFinite()) return false;
+  content_ = stretch_ - yields_ * t_;
+  return true;
+}
+
+void FrictionRod::GripProblem::find_wrong_guides(Chain& chain, double small,
+                                                 std::vector<Wrong>& wrong) const {
+  double moved = 0;
+  for (std::size_t k = chain.spans.stretch.size(); k-- > 1;) {
+    const std::size_t g = k - 1;
+    const int line = chain.first_span + static_cast<int>(k);
+    moved -= content_[line];
+    if (!(chain.spans.grip[g] > 0)) continue;
+    const Grip grip = chain.tensions.grips[g];
+    const double f = std::exp(chain.spans.grip[g]);
+    if (grip == Grip::sticks) {
+      if (t_[line - 1] > f * t_[line] + small) wrong.push_back({&chain, g, Grip::outward});
+      if (t_[line] > f * t_[line - 1] + small) wrong.push_back({&chain, g, Grip::inward});
+    } else if (static_cast<double>(grip) * moved < -edge) {
+      wrong.push_back({&chain, g, Grip::sticks});
+    }
+  }
+}
+
+std::vector<FrictionRod::GripProblem::Wrong> FrictionRod::GripProblem::find_wrong() {
+  std::vector<Wrong> wrong;
+  const double small = 1e-12 * t_.cwiseAbs().maxCoeff();
+  for (Chain& chain : rod_.chains_) {
+    if (!chain.moves) continue;
+    const auto spans = static_cast<Eigen::Index>(chain.spans.stretch.size());
+    if (chain.taut ? !chain.spans.held && t_.segment(chain.first_span, spans).maxCoeff() <= 0
+                   : content_.segment(chain.first_span, spans).sum() > edge)
+      wrong.push_back({&chain, 0, Grip::sticks, !chain.taut, true});
+    else if (chain.taut && chain.tendon.friction > 0)
+      find_wrong_guides(chain, small, wrong);
+  }
+  return wrong;
+}
+
+void FrictionRod::GripProblem::exchange(const Wrong& wrong) {
+  if (wrong.exchanges)
+    wrong.chain->taut = wrong.taut;
+  else
+    wrong.chain->tensions.grips[wrong.guide] = wrong.to;
+}
+
 /// @param tensions those at which the gradient was taken
 void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
   bool any = false;
@@ -165,25 +292,8 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
   if (!any) return;
   Eigen::MatrixXd ahead, unused;
   geometry_rates(side_.data(), row, 1, ahead, unused);
-  // (c + LH⁻¹Lᵀ) t = e − what has come by slip
-  Eigen::MatrixXd yields = Eigen::MatrixXd::Zero(size, size), rows(size, size);
-  Eigen::VectorXd stretch(size), right(size), t(size), content(size);
-  const Eigen::VectorXd now = ahead.col(0) + length_answers_ * tensions;
-  for (const Chain& a : chains_) {
-    if (!a.moves) continue;
-    const int outer = a.has_outer ? 1 : 0, count = static_cast<int>(a.units.size());
-    for (int k = 0; k < count + outer; ++k) {
-      stretch[a.first_span + k] = a.spans.stretch[at(k)];
-      yields(a.first_span + k, a.first_span + k) = a.spans.compliance[at(k)];
-    }
-    for (int k = 0; k < count; ++k) stretch[a.first_span + outer + k] += now[a.first_column + k];
-    for (const Chain& b : chains_) {
-      if (!b.moves) continue;
-      yields.block(a.first_span + outer, b.first_span + (b.has_outer ? 1 : 0), count,
-                   static_cast<int>(b.units.size())) +=
-          length_answers_.block(a.first_column, b.first_column, count, static_cast<int>(b.units.size()));
-    }
-  }
+  GripProblem problem(*this, size);
+  problem.build(ahead.col(0) + length_answers_ * tensions);
   for (Chain& chain : chains_)  // as the last step had it
     if (chain.moves && chain.chosen.size() == chain.tensions.grips.size()) {
       chain.tensions.grips = chain.chosen;
@@ -192,68 +302,8 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int patience = 6;
   for (int round = 0; round < most_rounds; ++round) {
-    rows.setZero();
-    right.setZero();
-    for (const Chain& chain : chains_) {
-      if (!chain.moves) continue;
-      const int spans = static_cast<int>(chain.spans.stretch.size());
-      if (!chain.taut) {
-        for (int k = 0; k < spans; ++k) rows(chain.first_span + k, chain.first_span + k) = 1;
-        continue;
-      }
-      int base = chain.first_span;
-      for (int k = 0; k < spans; ++k) {
-        const int line = chain.first_span + k;
-        if (k > 0 && chain.tensions.grips[at(k - 1)] != Grip::sticks) {  // its own row says how it follows
-          rows(line, line) = 1;
-          rows(line, line - 1) = -chain.tensions.ratio(chain.spans, at(k - 1));
-        } else {
-          base = line;
-        }
-        if (base == chain.first_span && chain.spans.held) {
-          if (k == 0) rows(line, line) = 1, right[line] = chain.spans.tension;
-        } else {
-          rows.row(base) += yields.row(line);
-          right[base] += stretch[line];
-        }
-      }
-    }
-    t = rows.partialPivLu().solve(right);
-    if (!t.allFinite()) return;
-    content = stretch - yields * t;
-    struct Wrong {
-      Chain* chain;
-      std::size_t guide;
-      Grip to;
-      bool taut = true, exchanges = false;  ///< all of the tendon
-    };
-    std::vector<Wrong> wrong;
-    const double small = 1e-12 * t.cwiseAbs().maxCoeff();
-    for (Chain& chain : chains_) {
-      if (!chain.moves) continue;
-      const auto spans = static_cast<Eigen::Index>(chain.spans.stretch.size());
-      if (chain.taut ? !chain.spans.held && t.segment(chain.first_span, spans).maxCoeff() <= 0
-                     : content.segment(chain.first_span, spans).sum() > edge) {
-        wrong.push_back({&chain, 0, Grip::sticks, !chain.taut, true});
-        continue;
-      }
-      if (!chain.taut || !(chain.tendon.friction > 0)) continue;
-      double moved = 0;
-      for (std::size_t k = chain.spans.stretch.size(); k-- > 1;) {
-        const std::size_t g = k - 1;
-        const int line = chain.first_span + static_cast<int>(k);
-        moved -= content[line];
-        if (!(chain.spans.grip[g] > 0)) continue;
-        const Grip grip = chain.tensions.grips[g];
-        const double f = std::exp(chain.spans.grip[g]);
-        if (grip == Grip::sticks) {
-          if (t[line - 1] > f * t[line] + small) wrong.push_back({&chain, g, Grip::outward});
-          if (t[line] > f * t[line - 1] + small) wrong.push_back({&chain, g, Grip::inward});
-        } else if (static_cast<double>(grip) * moved < -edge) {
-          wrong.push_back({&chain, g, Grip::sticks});
-        }
-      }
-    }
+    if (!problem.solve()) return;
+    const std::vector<GripProblem::Wrong> wrong = problem.find_wrong();
     if (wrong.empty()) return;
     if (wrong.size() < fewest) {
       fewest = wrong.size();
@@ -262,13 +312,7 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
       --patience;
     }
     const std::size_t changed = patience > 0 ? wrong.size() : 1;  // one by one it does not go round
-    for (std::size_t i = 0; i < changed; ++i) {
-      Chain& chain = *wrong[i].chain;
-      if (wrong[i].exchanges)
-        chain.taut = wrong[i].taut;
-      else
-        chain.tensions.grips[wrong[i].guide] = wrong[i].to;
-    }
+    for (std::size_t i = 0; i < changed; ++i) GripProblem::exchange(wrong[i]);
   }
 }
 

@@ -1,4 +1,4 @@
-/// @file rod_system.hpp
+/// @file elastica_system.hpp
 /// Rods between a base and a platform as one system of equations: what Newton's method needs of a robot whose
 /// legs bear load. The rods' own unknowns are eliminated in the same step, never solved at a fixed platform.
 /// Theory: docs/theory/rod_robot.md
@@ -14,14 +14,14 @@
 namespace sinew::inline v1 {
 
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
-class RodSystem : public RodGroup {
+class ElasticaSystem : public RodGroup {
  public:
-  explicit RodSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
+  explicit ElasticaSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
 
   const LimbTraits& traits() const override;
   void save(LimbState& to) const override;
   void restore(const LimbState& from) override;
-  RodSystem* elastica() final { return this; }
+  ElasticaSystem* elastica() final { return this; }
 
   /// @name What is held
   /// @{
@@ -29,7 +29,7 @@ class RodSystem : public RodGroup {
   Vec3<double> platform_point(int rod) const override;
   double stiffness(int rod) const override;
   double length(int rod) const override;
-  void hold(int rod, double length) override;
+  void set_feed(int rod, double length) override;
   void set_inputs(Numbers inputs) override;
   Wrench wrench() const final { return Eigen::Map<const Wrench>(held_.wrench); }
   void set_wrench(const Wrench& wrench) final { Eigen::Map<Wrench>(held_.wrench) = wrench; }

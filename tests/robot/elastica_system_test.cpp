@@ -1,6 +1,6 @@
 /// Rods between a base and a platform as one system: each rod against the exact elastica, forces against
 /// their slopes, lanes against each other. Whole robots: tests/kinematics/rod_*_test.cpp.
-#include "robot/rods/rod_system.hpp"
+#include "robot/rods/elastica_system.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "rod_robots.hpp"
 
 namespace sinew::test {
-namespace rod_system_test {
+namespace elastica_system_test {
 
 /// Calls `use(robot, system)` with random robots of these numbers of rods, laid at random poses.
 template <class Use>
@@ -18,14 +18,14 @@ void each_robot(std::initializer_list<int> sizes, unsigned seed, Use&& use) {
     for (int trial = 0; trial < 4; ++trial) {
       SCOPED_TRACE(testing::Message() << rods << " rods, trial " << trial);
       const RodRobot robot = random.robot(rods, trial % 2 == 0 ? 0 : 0.25);
-      RodSystem system(robot);
+      ElasticaSystem system(robot);
       ASSERT_TRUE(lay(system, random.near(home(robot), 0.02, 0.12), random));
       use(robot, system);
     }
 }
 
-TEST(RodSystem, EachRodIsAnElastica) {  // @verifies 3PFS (24)
-  each_robot({3, 6, 8, 9, 12}, 1, [](const RodRobot& robot, RodSystem& system) {
+TEST(ElasticaSystem, EachRodIsAnElastica) {  // @verifies 3PFS (24)
+  each_robot({3, 6, 8, 9, 12}, 1, [](const RodRobot& robot, ElasticaSystem& system) {
     system.refine();
     ASSERT_TRUE(close_rods(system));
     ASSERT_TRUE(balance(system));
@@ -42,11 +42,11 @@ TEST(RodSystem, EachRodIsAnElastica) {  // @verifies 3PFS (24)
   });
 }
 
-TEST(RodSystem, LargestCurvatureIsThatOfTheExactShape) {
+TEST(ElasticaSystem, LargestCurvatureIsThatOfTheExactShape) {
   std::vector<double> s(401);
   for (std::size_t i = 0; i < s.size(); ++i) s[i] = double(i) / double(s.size() - 1);
   std::vector<ElasticaSection> sections(s.size());
-  each_robot({6}, 2, [&](const RodRobot& robot, RodSystem& system) {
+  each_robot({6}, 2, [&](const RodRobot& robot, ElasticaSystem& system) {
     for (int k = 0; k < system.limbs(); ++k) {
       const RodResult rod = system.rod(k);
       elastica_sections(local_force(planar_state(rod, robot.legs[std::size_t(k)])), s, sections);
@@ -65,12 +65,12 @@ TEST(RodSystem, LargestCurvatureIsThatOfTheExactShape) {
   });
 }
 
-TEST(RodSystem, CentrelineRunsAlongTheElastica) {
+TEST(ElasticaSystem, CentrelineRunsAlongTheElastica) {
   constexpr int samples = 41;
   std::vector<double> s(samples);
   for (std::size_t i = 0; i < s.size(); ++i) s[i] = double(i) / (samples - 1);
   std::vector<ElasticaSection> sections(samples);
-  each_robot({3}, 3, [&](const RodRobot& robot, RodSystem& system) {
+  each_robot({3}, 3, [&](const RodRobot& robot, ElasticaSystem& system) {
     system.refine();
     ASSERT_TRUE(close_rods(system));
     for (int k = 0; k < system.limbs(); ++k) {
@@ -91,8 +91,8 @@ TEST(RodSystem, CentrelineRunsAlongTheElastica) {
   });
 }
 
-TEST(RodSystem, StiffnessIsTheSlopeOfTheForces) {  // rods found anew at every displaced pose
-  each_robot({3, 6, 9}, 4, [](const RodRobot&, RodSystem& system) {
+TEST(ElasticaSystem, StiffnessIsTheSlopeOfTheForces) {  // rods found anew at every displaced pose
+  each_robot({3, 6, 9}, 4, [](const RodRobot&, ElasticaSystem& system) {
     const LimbState at = system.state();
     const Eigen::MatrixXd stiffness = system.stiffness();
     const auto forces = [&](const Vec<double, 6>& x) {
@@ -103,9 +103,9 @@ TEST(RodSystem, StiffnessIsTheSlopeOfTheForces) {  // rods found anew at every d
   });
 }
 
-TEST(RodSystem, FeedWrenchIsTheSlopeByAnInput) {
+TEST(ElasticaSystem, FeedWrenchIsTheSlopeByAnInput) {
   RodRandom random(5);
-  const auto check = [](RodSystem& system) {
+  const auto check = [](ElasticaSystem& system) {
     const LimbState at = system.state();
     Eigen::MatrixXd feed(6, system.inputs());
     for (int input = 0; input < system.inputs(); ++input)
@@ -117,16 +117,16 @@ TEST(RodSystem, FeedWrenchIsTheSlopeByAnInput) {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.inputs());
     EXPECT_LT(check_jacobian_real(forces, zero, feed, {.step = 1e-5}), 1e-7);
   };
-  each_robot({3, 9}, 5, [&](const RodRobot&, RodSystem& system) { check(system); });
+  each_robot({3, 9}, 5, [&](const RodRobot&, ElasticaSystem& system) { check(system); });
   const RodRobot tied = tripod_robot(g2);
-  RodSystem system(tied);
+  ElasticaSystem system(tied);
   ASSERT_EQ(system.inputs(), 3);
   ASSERT_TRUE(lay(system, random.near(home(tied), 0.01, 0.1), random));
   check(system);
 }
 
-TEST(RodSystem, EnergyFallsByWhatTheForcesDo) {
-  each_robot({6, 12}, 6, [](const RodRobot& robot, RodSystem& system) {
+TEST(ElasticaSystem, EnergyFallsByWhatTheForcesDo) {
+  each_robot({6, 12}, 6, [](const RodRobot& robot, ElasticaSystem& system) {
     system.refine();
     ASSERT_TRUE(close_rods(system) && balance(system));
     const LimbState at = system.state();
@@ -154,9 +154,9 @@ TEST(RodSystem, EnergyFallsByWhatTheForcesDo) {
   });
 }
 
-TEST(RodSystem, NewtonsStepIsQuadratic) {  // pose, forces and shapes in one step
+TEST(ElasticaSystem, NewtonsStepIsQuadratic) {  // pose, forces and shapes in one step
   RodRandom random(7);
-  each_robot({6, 9}, 7, [&](const RodRobot&, RodSystem& system) {
+  each_robot({6, 9}, 7, [&](const RodRobot&, ElasticaSystem& system) {
     const SE3<double> found = system.platform();
     system.set_platform(random.near(found, 3e-4, 2e-3));
     double before = system.evaluate();
@@ -172,9 +172,9 @@ TEST(RodSystem, NewtonsStepIsQuadratic) {  // pose, forces and shapes in one ste
   });
 }
 
-TEST(RodSystem, EvaluatesTheSameFromWhatAStepLeft) {
+TEST(ElasticaSystem, EvaluatesTheSameFromWhatAStepLeft) {
   RodRandom random(8);
-  each_robot({3, 9}, 8, [&](const RodRobot&, RodSystem& system) {
+  each_robot({3, 9}, 8, [&](const RodRobot&, ElasticaSystem& system) {
     for (const bool is_fine : {false, true}) {
       if (is_fine) system.refine();
       system.set_platform(random.near(system.platform(), 2e-4, 1e-3));
@@ -195,9 +195,9 @@ TEST(RodSystem, EvaluatesTheSameFromWhatAStepLeft) {
 
 /// Steps beyond the 0.07 rad up to which sines are turned, more of them than are carried on, and lengths and
 /// load that change between.
-TEST(RodSystem, CarriesOnWhatLengthsLoadAndManyStepsChange) {
+TEST(ElasticaSystem, CarriesOnWhatLengthsLoadAndManyStepsChange) {
   RodRandom random(12);
-  each_robot({3, 9}, 12, [&](const RodRobot& robot, RodSystem& system) {
+  each_robot({3, 9}, 12, [&](const RodRobot& robot, ElasticaSystem& system) {
     for (const bool is_fine : {false, true}) {
       if (is_fine) system.refine();
       system.evaluate();
@@ -208,13 +208,13 @@ TEST(RodSystem, CarriesOnWhatLengthsLoadAndManyStepsChange) {
         if (k % 2 == 0) {
           system.set_wrench(random.wrench(1, 0.1));
           for (int rod = 0; rod < system.limbs(); ++rod)
-            system.hold(rod, system.length(rod) * (1 + 1e-4 * (rod % 3 - 1)));
+            system.set_feed(rod, system.length(rod) * (1 + 1e-4 * (rod % 3 - 1)));
         }
-        RodSystem::Twist twist = random.wrench(size * system.length(0), size);
+        ElasticaSystem::Twist twist = random.wrench(size * system.length(0), size);
         system.evaluate(false);
         system.step(false);
         system.move(twist);
-        RodSystem other(robot);
+        ElasticaSystem other(robot);
         other.restore(system.state());
         const double carried = system.evaluate(false), anew = other.evaluate(true);
         EXPECT_NEAR(carried, anew, 1e-11 * (1 + anew)) << k;
@@ -231,9 +231,9 @@ TEST(RodSystem, CarriesOnWhatLengthsLoadAndManyStepsChange) {
   });
 }
 
-TEST(RodSystem, NoNumberThatIsNotOneIsEverSmall) {
+TEST(ElasticaSystem, NoNumberThatIsNotOneIsEverSmall) {
   const double nan = std::nan("");
-  each_robot({3, 9}, 9, [&](const RodRobot&, RodSystem& system) {
+  each_robot({3, 9}, 9, [&](const RodRobot&, ElasticaSystem& system) {
     for (const bool is_fine : {false, true}) {
       if (is_fine) system.refine();
       ASSERT_TRUE(close_rods(system));
@@ -246,7 +246,7 @@ TEST(RodSystem, NoNumberThatIsNotOneIsEverSmall) {
         return std::isnan(system.evaluate());
       };
       for (int k = 0; k < system.limbs(); ++k) {
-        EXPECT_TRUE(spoilt([&] { system.hold(k, nan); })) << k;
+        EXPECT_TRUE(spoilt([&] { system.set_feed(k, nan); })) << k;
         for (const std::size_t part : {0u, 4u, 10u, 11u, 12u}) {
           const auto spoil = [&] {
             CoarseRods lanes;
@@ -282,9 +282,9 @@ TEST(RodSystem, NoNumberThatIsNotOneIsEverSmall) {
   });
 }
 
-TEST(RodSystem, SavesAndRestoresExactly) {
+TEST(ElasticaSystem, SavesAndRestoresExactly) {
   RodRandom random(10);
-  each_robot({9}, 10, [&](const RodRobot&, RodSystem& system) {
+  each_robot({9}, 10, [&](const RodRobot&, ElasticaSystem& system) {
     for (const bool is_fine : {false, true}) {
       if (is_fine) system.refine();
       const LimbState saved = system.state();
@@ -307,8 +307,8 @@ TEST(RodSystem, SavesAndRestoresExactly) {
   });
 }
 
-TEST(RodSystem, RefinesAndCoarsensTheSameShapes) {
-  each_robot({6, 9}, 11, [](const RodRobot&, RodSystem& system) {
+TEST(ElasticaSystem, RefinesAndCoarsensTheSameShapes) {
+  each_robot({6, 9}, 11, [](const RodRobot&, ElasticaSystem& system) {
     const auto points = [&] { return system.centreline(system.limbs() - 1, 21); };
     const auto before = points();
     const RodResult rod = system.rod(0);
@@ -326,15 +326,15 @@ TEST(RodSystem, RefinesAndCoarsensTheSameShapes) {
   });
 }
 
-TEST(RodSystem, HandsOutRodsAsCoordinatesAndTakesThemBack) {
-  each_robot({9}, 12, [](const RodRobot& robot, RodSystem& system) {
+TEST(ElasticaSystem, HandsOutRodsAsCoordinatesAndTakesThemBack) {
+  each_robot({9}, 12, [](const RodRobot& robot, ElasticaSystem& system) {
     const LimbState at = system.state();
     for (const bool is_fine : {false, true}) {
       system.restore(at);
       if (is_fine) system.refine();
       ASSERT_TRUE(close_rods(system));
       ASSERT_TRUE(balance(system));
-      RodSystem other(robot);
+      ElasticaSystem other(robot);
       other.set_platform(system.platform());
       other.set_wrench(system.wrench());
       for (int k = 0; k < system.limbs(); ++k) {
@@ -350,14 +350,14 @@ TEST(RodSystem, HandsOutRodsAsCoordinatesAndTakesThemBack) {
   });
 }
 
-TEST(RodSystem, RodsDoNotMindTheirLanes) {  // idle lanes, several groups: the same rods in another order
+TEST(ElasticaSystem, RodsDoNotMindTheirLanes) {  // idle lanes, several groups: the same rods in another order
   RodRandom random(13);
   for (const int rods : {1, 3, 6, 8, 9, 12, 17, 24}) {
     SCOPED_TRACE(rods);
     const RodRobot robot = random.robot(rods, 0.2);
     RodRobot turned = robot;
     std::reverse(turned.legs.begin(), turned.legs.end());
-    RodSystem a(robot), b(turned);
+    ElasticaSystem a(robot), b(turned);
     const SE3<double> pose = random.near(home(robot), 0.02, 0.1);
     if (rods > 1) {
       ASSERT_TRUE(a.rest_at(pose) && b.rest_at(pose));
@@ -367,8 +367,8 @@ TEST(RodSystem, RodsDoNotMindTheirLanes) {  // idle lanes, several groups: the s
     }
     for (int k = 0; k < rods; ++k) {
       const double fed = random.uniform(0, 1e-3);
-      a.hold(k, a.length(k) + fed);
-      b.hold(rods - 1 - k, b.length(rods - 1 - k) + fed);
+      a.set_feed(k, a.length(k) + fed);
+      b.set_feed(rods - 1 - k, b.length(rods - 1 - k) + fed);
     }
     ASSERT_TRUE(close_rods(a) && close_rods(b));
     balance(a);
@@ -385,8 +385,8 @@ TEST(RodSystem, RodsDoNotMindTheirLanes) {  // idle lanes, several groups: the s
   }
 }
 
-TEST(RodSystem, PutsTheSumOfItsRodsOnThePlatform) {
-  each_robot({3, 8, 9, 24}, 14, [](const RodRobot& robot, RodSystem& system) {
+TEST(ElasticaSystem, PutsTheSumOfItsRodsOnThePlatform) {
+  each_robot({3, 8, 9, 24}, 14, [](const RodRobot& robot, ElasticaSystem& system) {
     Wrench6 sum = Wrench6::Zero();
     for (int k = 0; k < system.limbs(); ++k) {
       const Vec3<double> force = system.rod(k).force;
@@ -398,5 +398,5 @@ TEST(RodSystem, PutsTheSumOfItsRodsOnThePlatform) {
   });
 }
 
-}  // namespace rod_system_test
+}  // namespace elastica_system_test
 }  // namespace sinew::test

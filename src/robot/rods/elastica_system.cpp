@@ -1,4 +1,4 @@
-#include "robot/rods/rod_system.hpp"
+#include "robot/rods/elastica_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +66,7 @@ int unstable_aside(const Group& rods, int i) {
 
 }  // namespace
 
-RodSystem::RodSystem(const ParallelRobot<RodLeg>& robot)
+ElasticaSystem::ElasticaSystem(const ParallelRobot<RodLeg>& robot)
     : RodGroup(robot),
       coarse_(at((robot.leg_count() + rod_lanes - 1) / rod_lanes)),
       fine_(coarse_.size()),
@@ -92,7 +92,7 @@ RodSystem::RodSystem(const ParallelRobot<RodLeg>& robot)
 
 /// Lanes without a rod do what the first of their group does, and count for nothing.
 template <class Group>
-void RodSystem::fill_idle_lanes(Group& last) const {
+void ElasticaSystem::fill_idle_lanes(Group& last) const {
   const auto fill = [&](RodLane& lane) {
     for (int i = (rods_ - 1) % rod_lanes + 1; i < rod_lanes; ++i) lane[i] = lane[0];
   };
@@ -102,7 +102,7 @@ void RodSystem::fill_idle_lanes(Group& last) const {
   for (RodLane* lane : {&last.flexibility, &last.length, &last.force_d, &last.force_w}) fill(*lane);
 }
 
-const LimbTraits& RodSystem::traits() const {
+const LimbTraits& ElasticaSystem::traits() const {
   // stiff robots turn the best truncation into forces; with the quick one poses were within 2e-13 m of exact
   // ones
   static constexpr LimbTraits traits{
@@ -110,14 +110,14 @@ const LimbTraits& RodSystem::traits() const {
   return traits;
 }
 
-void RodSystem::save(LimbState& to) const {
+void ElasticaSystem::save(LimbState& to) const {
   save_common(to, is_fine_, fine_.size() * sizeof(FineRods::State));
   with([&]<class Group>(std::span<const Group> groups) {
     for (const Group& rods : groups) to.put<typename Group::State>(rods);
   });
 }
 
-void RodSystem::restore(const LimbState& from) {
+void ElasticaSystem::restore(const LimbState& from) {
   LimbState::Reader reader(from);
   is_fine_ = restore_common(reader) != 0;
   with([&]<class Group>(std::span<Group> groups) {
@@ -125,30 +125,30 @@ void RodSystem::restore(const LimbState& from) {
   });
 }
 
-Vec3<double> RodSystem::base(int rod) const {
+Vec3<double> ElasticaSystem::base(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return vector_of(rods.base, i); });
 }
 
-Vec3<double> RodSystem::platform_point(int rod) const {
+Vec3<double> ElasticaSystem::platform_point(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return vector_of(rods.platform_point, i); });
 }
 
-double RodSystem::stiffness(int rod) const {
+double ElasticaSystem::stiffness(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return 1 / rods.flexibility[i]; });
 }
 
-double RodSystem::length(int rod) const {
+double ElasticaSystem::length(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return rods.length[i]; });
 }
 
-void RodSystem::hold(int rod, double length) {
+void ElasticaSystem::set_feed(int rod, double length) {
   with([&](auto groups) {
     groups[at(rod / rod_lanes)].length[rod % rod_lanes] = length;
     if (rod % rod_lanes == 0) fill_idle_lanes(groups.back());
   });
 }
 
-void RodSystem::set_inputs(Numbers inputs) {
+void ElasticaSystem::set_inputs(Numbers inputs) {
   with([&](auto groups) {
     for (int k = 0; k < static_cast<int>(groups.size()) * rod_lanes; ++k) {
       const int rod = k < rods_ ? k : k / rod_lanes * rod_lanes;  // idle lanes: the first of their group
@@ -177,17 +177,17 @@ void carry(const std::vector<From>& from, std::vector<To>& to, const Rows& rows)
 
 }  // namespace
 
-void RodSystem::refine() {
+void ElasticaSystem::refine() {
   if (!is_fine_) carry(coarse_, fine_, refinement().fine_from_coarse);
   is_fine_ = true;
 }
 
-void RodSystem::coarsen() {
+void ElasticaSystem::coarsen() {
   if (is_fine_) carry(fine_, coarse_, refinement().coarse_from_fine);
   is_fine_ = false;
 }
 
-double RodSystem::evaluate(bool from_scratch) {
+double ElasticaSystem::evaluate(bool from_scratch) {
   constexpr int max_carried = 64;  // each rounds by 2e-16
   if (carried_ > max_carried) from_scratch = true;
   if (from_scratch) carried_ = 0;
@@ -202,30 +202,30 @@ double RodSystem::evaluate(bool from_scratch) {
   return sums_.error;
 }
 
-bool RodSystem::linearise() {
+bool ElasticaSystem::linearise() {
   has_inverse_ = with([&](auto groups) { return rod_kernels::linearise(groups, held_, sums_); });
   return has_inverse_ || lu_.factor(sums_.stiffness, radius_);
 }
 
-const SmallLu<6>& RodSystem::factors() const {
+const SmallLu<6>& ElasticaSystem::factors() const {
   lu_.factor(sums_.stiffness, radius_);
   return lu_;
 }
 
-RodSystem::Wrench RodSystem::wrench_residual() const {
+ElasticaSystem::Wrench ElasticaSystem::wrench_residual() const {
   return wrench() - Eigen::Map<const Wrench>(sums_.wrench);
 }
 
-RodSystem::Twist RodSystem::step(bool fresh) {
+ElasticaSystem::Twist ElasticaSystem::step(bool fresh) {
   with([&](auto groups) { rod_kernels::step(groups, held_, fresh, sums_); });
   if (has_inverse_) return Eigen::Map<const Twist>(sums_.twist);
-  const Wrench wanted = RodSystem::wrench_residual();
+  const Wrench wanted = ElasticaSystem::wrench_residual();
   Twist twist;
   lu_.solve(wanted.data(), twist.data());
   return twist;
 }
 
-void RodSystem::move(const Twist& twist, Numbers fed) {
+void ElasticaSystem::move(const Twist& twist, Numbers fed) {
   if (!fed.empty())
     for (int k = 0; k < static_cast<int>(fed_.size()) * rod_lanes; ++k) {
       const int rod = k < rods_ ? k : k / rod_lanes * rod_lanes;  // idle lanes: the first of their group
@@ -236,7 +236,7 @@ void RodSystem::move(const Twist& twist, Numbers fed) {
   with([&](auto groups) { rod_kernels::apply(groups, twist.data(), fed.empty() ? nullptr : fed_.data()); });
 }
 
-RodSystem::Wrench RodSystem::input_wrench_jacobian(int input) const {
+ElasticaSystem::Wrench ElasticaSystem::input_wrench_jacobian(int input) const {
   Wrench sum = Wrench::Zero();
   for (int k = 0; k < rods_; ++k) {
     if (input_of(k) != input) continue;
@@ -250,7 +250,7 @@ RodSystem::Wrench RodSystem::input_wrench_jacobian(int input) const {
   return sum;
 }
 
-RodSystem::Aim RodSystem::aim(int index) const {
+ElasticaSystem::Aim ElasticaSystem::aim(int index) const {
   return with_rod(index, [&](const auto& rods, int i) -> Aim {
     const Vec3<double> tangent = vector_of(rods.tangent, i);
     const Vec3<double> tip = platform_.point(vector_of(rods.platform_point, i)) - vector_of(rods.base, i);
@@ -261,8 +261,8 @@ RodSystem::Aim RodSystem::aim(int index) const {
   });
 }
 
-void RodSystem::set_shape(int index, double length, std::span<const double> theta, double force_d,
-                          double force_w, const Vec3<double>& lateral) {
+void ElasticaSystem::set_shape(int index, double length, std::span<const double> theta, double force_d,
+                               double force_w, const Vec3<double>& lateral) {
   is_fine_ = false;
   CoarseRods& rods = coarse_[at(index / rod_lanes)];
   const int i = index % rod_lanes;
@@ -288,7 +288,7 @@ void each_lane(const From& from, To& to, Use&& use) {
 
 }  // namespace
 
-void RodSystem::copy_rod(int index, CoarseRods& to, int lane) const {
+void ElasticaSystem::copy_rod(int index, CoarseRods& to, int lane) const {
   const CoarseRods& rods = coarse_[at(index / rod_lanes)];
   const int i = index % rod_lanes;
   each_lane(rods, to, [&](const RodLane& a, RodLane& b) { b[lane] = a[i]; });
@@ -301,14 +301,14 @@ void RodSystem::copy_rod(int index, CoarseRods& to, int lane) const {
   to.active[lane] = 1;
 }
 
-void RodSystem::take_rod(int index, const CoarseRods::State& from, int lane) {
+void ElasticaSystem::take_rod(int index, const CoarseRods::State& from, int lane) {
   is_fine_ = false;
   CoarseRods& rods = coarse_[at(index / rod_lanes)];
   each_lane(from, rods, [&](const RodLane& a, RodLane& b) { b[index % rod_lanes] = a[lane]; });
   fill_idle_lanes(coarse_.back());
 }
 
-void RodSystem::get_rod(int index, std::span<double> coordinates) const {
+void ElasticaSystem::get_rod(int index, std::span<double> coordinates) const {
   with_rod(index, [&]<class Group>(const Group& rods, int i) {
     // the same shape on the other side where d < 0
     const double sign = rods.tip_d[i] < 0 ? -1 : 1;
@@ -331,7 +331,7 @@ void RodSystem::get_rod(int index, std::span<double> coordinates) const {
   });
 }
 
-void RodSystem::set_rod(int index, std::span<const double> coordinates, const Vec3<double>& lateral) {
+void ElasticaSystem::set_rod(int index, std::span<const double> coordinates, const Vec3<double>& lateral) {
   is_fine_ = true;
   FineRods& rods = fine_[at(index / rod_lanes)];
   const int i = index % rod_lanes;
@@ -343,18 +343,18 @@ void RodSystem::set_rod(int index, std::span<const double> coordinates, const Ve
   fill_idle_lanes(fine_.back());
 }
 
-void RodSystem::set_rods(Numbers coordinates) {
+void ElasticaSystem::set_rods(Numbers coordinates) {
   for (int k = 0; k < rods_; ++k)
     set_rod(k, coordinates.subspan(at(coordinate_of(k)), RodLeg::coordinates), aim(k).lateral);
 }
 
-double RodSystem::effort(int rod) const {
+double ElasticaSystem::effort(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return rods.force_w[i]; });
 }
-double RodSystem::closing_effort(int rod) const {
+double ElasticaSystem::closing_effort(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return rods.force_w[i] + rods.fix_w[i]; });
 }
-RodSystem::Twist RodSystem::effort_jacobian(int rod) const {
+ElasticaSystem::Twist ElasticaSystem::effort_jacobian(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) {
     const Vec3<double> by_tip =
         vector_of(rods.lateral, i) * rods.stiff_dw[i] + vector_of(rods.tangent, i) * rods.stiff_ww[i];
@@ -364,7 +364,7 @@ RodSystem::Twist RodSystem::effort_jacobian(int rod) const {
   });
 }
 
-RodResult RodSystem::rod(int index) const {
+RodResult ElasticaSystem::rod(int index) const {
   return with_rod(index, [](const auto& rods, int i) {
     const double length = rods.length[i], stiffness = 1 / rods.flexibility[i];
     const Vec3<double> h = vector_of(rods.lateral, i), t = vector_of(rods.tangent, i);
@@ -405,7 +405,7 @@ RodResult RodSystem::rod(int index) const {
 
 /// By the inertia of bordered matrices: the negative directions of H on the constraint are
 /// neg(H) − neg(AᵀH⁻¹A).
-std::array<int, 2> RodSystem::unstable_with_tip_held(int index) const {
+std::array<int, 2> ElasticaSystem::unstable_with_tip_held(int index) const {
   return with_rod(index, [](const auto& rods, int i) -> std::array<int, 2> {
     int in_plane = 0;
     for (const RodLane& pivot : rods.pivot) in_plane += pivot[i] < 0;
@@ -416,13 +416,13 @@ std::array<int, 2> RodSystem::unstable_with_tip_held(int index) const {
 }
 
 /// The Galerkin solution is best in energy, so that tips err by the square of the shape's error.
-double RodSystem::truncation() const {
+double ElasticaSystem::truncation() const {
   alignas(64) RodLane largest;
   with([&](auto groups) { rod_kernels::truncation(groups, largest); });
   return *std::max_element(largest, largest + rod_lanes);
 }
 
-std::vector<Vec3<double>> RodSystem::centreline(int index, int samples) const {
+std::vector<Vec3<double>> ElasticaSystem::centreline(int index, int samples) const {
   return with_rod(index, [&](const auto& rods, int i) {
     const auto& node = basis_of(rods).node;
     const Vec3<double> h = vector_of(rods.lateral, i), t = vector_of(rods.tangent, i);

@@ -1,4 +1,4 @@
-#include "kinematics/rods/hold.hpp"
+#include "kinematics/rods/lengths_for_pose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -240,8 +240,8 @@ Report finish(RodWork& work, const SE3<double>& wanted, Report report, double tr
 
 }  // namespace
 
-Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& wanted,
-                 const RodQuestion& question) {
+Report lengths_for_pose(RodWork& work, const SE3<double>& home, const SE3<double>& wanted,
+                        const RodQuestion& question) {
   RodGroup& system = *work.system;
   work.signs.reset();
   if (const Report checked = check(system, wanted, question); !checked.ok()) return checked;
