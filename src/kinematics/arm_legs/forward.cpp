@@ -130,12 +130,16 @@ ArmGroup::Frame between(const ArmGroup::Frame& from, const Vec<double, 6>& twist
           SO3<double>::exp(Vec3<double>(share * twist.tail<3>())).compose(from.R)};
 }
 
-std::string_view words_for(Status status, bool is_held) {
+std::string_view words_for(Status status, bool is_held, bool has_potential) {
   if (is_held && status == Status::stalled)
     return "legs held the platform up to {:.2f} % of the way to the pose, and beyond they do not reach it or "
            "give way";
   switch (status) {
     case Status::stalled:
+      if (!has_potential)
+        return "inputs and loads led to an equilibrium that is known to hold up to {:.2f} % of them, and "
+               "beyond "
+               "to none: some of the loads have no potential, and what is beyond may hold or not";
       return "inputs and loads led to an equilibrium that holds up to {:.2f} % of them, and beyond to none";
     case Status::iteration_limit:
       return "the bound on iterations was met at {:.2f} % of inputs and loads";
@@ -227,11 +231,23 @@ void prepare_levels(const ArmOptions& options, const LegsBreaks& breaks, ArmLegs
 LegsProblem::LegsProblem(const ArmLegs& robot, std::span<const TendonCommand> tendons,
                          const ArmLegsLoad& load)
     : commands(tendons.begin(), tendons.end()),
-      loads{load.gravity.value_or(robot.gravity), load.along, load.points} {
+      loads{.gravity = load.gravity.value_or(robot.gravity),
+            .along = load.along,
+            .following_along = load.following_along,
+            .following = load.following,
+            .points = load.points} {
   std::copy(load.wrench.begin(), load.wrench.end(), wrench.begin());
 }
 
 namespace {
+
+/// In base axes, and in those of a leg in the plane, whose y axis is square to it.
+bool leaves_plane(const std::array<double, 6>& wrench) {
+  return wrench[2] != 0 || wrench[3] != 0 || wrench[4] != 0;
+}
+bool leaves_own_plane(const std::array<double, 6>& wrench) {
+  return wrench[1] != 0 || wrench[3] != 0 || wrench[5] != 0;
+}
 
 /// Of loads on legs.
 Report loads_misfit(const ArmLegs& robot, const ArmLegsLoad& load) {
@@ -249,11 +265,6 @@ Report loads_misfit(const ArmLegs& robot, const ArmLegsLoad& load) {
           fmt::format("load {} is at {} m of leg {}, which is {} m long", i, point.place, point.leg, length));
     if (!std::ranges::all_of(point.wrench, [](double x) { return std::isfinite(x); }))
       return bad(fmt::format("load {} is not finite", i));
-    if (std::ranges::any_of(std::span(point.wrench).last(3), [](double x) { return x != 0; }))
-      return {Status::unsupported, 0, 0,
-              FixedText<240>(
-                  fmt::format("load {} has a moment{}: give forces alone in this version", i,
-                              robot.is_planar ? "" : ", which has no potential, by which legs balance"))};
   }
   return {Status::converged, 0, 0, {}};
 }
@@ -276,14 +287,16 @@ Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands
   }
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::ranges::all_of(load.wrench, finite) || !std::ranges::all_of(load.along, finite) ||
+      !std::ranges::all_of(load.following, finite) || !std::ranges::all_of(load.following_along, finite) ||
       (load.gravity && !std::ranges::all_of(*load.gravity, finite)))
     return bad("a load is not finite");
   if (const Report misfit = loads_misfit(robot, load); !misfit.ok()) return misfit;
   if (robot.is_planar) {
     const auto& gravity = load.gravity.value_or(robot.gravity);
-    if (load.wrench[2] != 0 || load.wrench[3] != 0 || load.wrench[4] != 0 || gravity[2] != 0 ||
-        load.along[2] != 0 ||
-        std::ranges::any_of(load.points, [](const auto& point) { return point.wrench[2] != 0; }))
+    if (leaves_plane(load.wrench) || leaves_plane(load.following) || gravity[2] != 0 || load.along[2] != 0 ||
+        load.following_along[1] != 0 || std::ranges::any_of(load.points, [](const auto& point) {
+          return point.following ? leaves_own_plane(point.wrench) : leaves_plane(point.wrench);
+        }))
       return bad("a load acts out of the plane, in which alone the robot moves: leave that part of it out");
   }
   if (options.balance != ArmBalance::energy)
@@ -487,8 +500,8 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
   if (found.status == Status::unstable || found.status == Status::singular)
     state.report.message = FixedText<240>("what coarser polynomials found does not hold by finer ones");
   else if (found.status != Status::converged)
-    state.report.message =
-        FixedText<240>(fmt::format(fmt::runtime(words_for(found.status, is_held)), 100 * state.reached));
+    state.report.message = FixedText<240>(fmt::format(
+        fmt::runtime(words_for(found.status, is_held, group->has_potential())), 100 * state.reached));
   else if (began_anew)
     state.report.message = FixedText<240>(
         "from the last equilibrium none that holds was found on the way here; this is what the rest grows "
