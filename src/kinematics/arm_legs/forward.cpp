@@ -113,6 +113,7 @@ LegsFound grow(ArmGroup& group, const Put& put, bool is_held, const ArmOptions& 
       group.save(last);
       if (found.iterations <= 6) step *= 2;
     } else {
+      all.last = is_found ? Status::unstable : found.status;
       group.restore(last);
       step *= 0.5;
     }
@@ -130,10 +131,7 @@ ArmGroup::Frame between(const ArmGroup::Frame& from, const Vec<double, 6>& twist
           SO3<double>::exp(Vec3<double>(share * twist.tail<3>())).compose(from.R)};
 }
 
-std::string_view words_for(Status status, bool is_held, bool has_potential) {
-  if (is_held && status == Status::stalled)
-    return "legs held the platform up to {:.2f} % of the way to the pose, and beyond they do not reach it or "
-           "give way";
+std::string_view words_for(Status status, bool has_potential) {
   switch (status) {
     case Status::stalled:
       if (!has_potential)
@@ -150,6 +148,48 @@ std::string_view words_for(Status status, bool is_held, bool has_potential) {
   }
 }
 
+/// A leg that the pose is too far from, in words; or empty.
+std::string out_of_reach(const ArmLegs& robot, const ArmGroup::Frame& pose) {
+  for (std::size_t k = 0; k < robot.legs.size(); ++k) {
+    const ArmLeg& leg = robot.legs[k];
+    const double way = (pose.point(leg.platform_point) - leg.base.p).norm(),
+                 length = leg.arm.length() + leg.strut;
+    if (way > length)
+      return fmt::format(
+          "leg {} is out of reach: from its base to the platform it is {:.4g} m, and it is {:.4g} m "
+          "long",
+          k, way, length);
+  }
+  return {};
+}
+
+/// Why a platform is not held at the pose, and the way out.
+std::string words_of_held(const ArmLegs& robot, const LegsProblem& problem, const LegsFound& found,
+                          double reached) {
+  const std::string far = out_of_reach(robot, *problem.held);
+  if (!far.empty()) return far;
+  if (reached == 1)
+    return "coarse polynomials hold the platform at the pose, and finer ones do not: a leg is pulled or bent "
+           "too "
+           "sharply for them";
+  const char* why =
+      found.last == Status::unstable
+          ? "a leg gives way by itself: bend it by tensions, or lead the platform there by track"
+      : found.last == Status::singular
+          ? "a leg that is straight and does not stretch has no finite stiffness: bend it by tensions"
+          : "no equilibrium was found: lead the platform there by track, or give less load";
+  return fmt::format("legs held the platform up to {:.2f} % of the way to the pose, and beyond {}",
+                     100 * reached, why);
+}
+
+/// From where a search has come to.
+LegsFound walk_after(const LegsFound& before, ArmGroup& group, const LegsProblem& problem,
+                     const ArmOptions& options, const StopToken& stop, double& reached) {
+  LegsFound found = walk_legs(group, problem, options, stop, reached);
+  found.iterations += before.iterations;
+  return found;
+}
+
 /// With the platform free; to where it is to be held it goes from there, since legs at rest are straight and
 /// would be pressed on a straight way to it.
 LegsFound begin_at_rest(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
@@ -161,9 +201,25 @@ LegsFound begin_at_rest(ArmGroup& group, const LegsProblem& problem, const ArmOp
     reached = 0;
     return found;
   }
-  const int spent = found.iterations;
-  found = walk_legs(group, problem, options, stop, reached);
-  found.iterations += spent;
+  return walk_after(found, group, problem, options, stop, reached);
+}
+
+/// Where legs do not bear a free platform under what acts: without it, then under as much as they bear; the
+/// rest comes while the platform is held and goes to its pose. Of a group at rest.
+LegsFound begin_unloaded(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
+                         const StopToken& stop, double& reached) {
+  LegsProblem free = problem;
+  free.held.reset();
+  free.wrench.setZero();
+  const std::vector<TendonCommand> loose(problem.commands.size());
+  group.set_problem(loose, free.wrench, {});
+  LegsFound found = grow_legs(group, options, stop, reached);
+  if (found.status == Status::converged) {
+    found = walk_after(found, group, free, options, stop, reached);
+    if (found.status == Status::converged || found.status == Status::stalled)
+      return walk_after(found, group, problem, options, stop, reached);
+  }
+  reached = 0;
   return found;
 }
 
@@ -463,6 +519,12 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
     level = 0;
     group = &ready(0);
     found = begin_at_rest(*group, problem, options, work.stop, state.reached);
+    if (is_held && found.status == Status::stalled && state.reached == 0) {
+      const LegsFound before = found;
+      group = &ready(0);
+      found = begin_unloaded(*group, problem, options, work.stop, state.reached);
+      found.iterations += before.iterations;
+    }
     found.iterations += spent;
   }
   impl.level = static_cast<int>(level);
@@ -500,8 +562,11 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
   if (found.status == Status::unstable || found.status == Status::singular)
     state.report.message = FixedText<240>("what coarser polynomials found does not hold by finer ones");
   else if (found.status != Status::converged)
-    state.report.message = FixedText<240>(fmt::format(
-        fmt::runtime(words_for(found.status, is_held, group->has_potential())), 100 * state.reached));
+    state.report.message =
+        FixedText<240>(is_held && found.status == Status::stalled
+                           ? words_of_held(robot, problem, found, state.reached)
+                           : fmt::format(fmt::runtime(words_for(found.status, group->has_potential())),
+                                         100 * state.reached));
   else if (began_anew)
     state.report.message = FixedText<240>(
         "from the last equilibrium none that holds was found on the way here; this is what the rest grows "

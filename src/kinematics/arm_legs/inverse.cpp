@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "kinematics/arm_legs/legs_work.hpp"
@@ -96,11 +98,13 @@ ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target, c
     if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
       return answer(found.report);
     if (!(found.report.residual < 1e300)) {
-      answer(state.report);
-      best.report.iterations = iterations;
-      if (best.report.ok())  // of another start
-        best.report = {Status::stalled, iterations, 0,
-                       FixedText<240>("no equilibrium was found from which to begin")};
+      answer(
+          {Status::stalled, iterations, 0,
+           FixedText<240>(fmt::format(
+               "the search for tensions has nowhere to begin: of {} first tensions, none at all and some of "
+               "each, "
+               "none holds the platform under these loads; give a start, where others hold it, or less load",
+               search.starts))});
       return best;
     }
     const LegsProblem there(robot, as_commands(found.tensions), load);
