@@ -11,6 +11,7 @@
 #include "base/at.hpp"
 #include "kinematics/arm_legs/legs_work.hpp"
 #include "kinematics/load_problem.hpp"
+#include "math/plane_axes.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
@@ -299,7 +300,7 @@ namespace {
 
 /// In base axes, and in those of a leg in the plane, whose y axis is square to it.
 bool leaves_plane(const std::array<double, 6>& wrench) {
-  return wrench[2] != 0 || wrench[3] != 0 || wrench[4] != 0;
+  return std::ranges::any_of(axes_out_of_plane, [&](std::size_t k) { return wrench[k] != 0; });
 }
 bool leaves_own_plane(const std::array<double, 6>& wrench) {
   return wrench[1] != 0 || wrench[3] != 0 || wrench[5] != 0;

@@ -10,6 +10,7 @@
 #include "io/read_pose.hpp"
 #include "io/reader.hpp"
 #include "leg/space.hpp"
+#include "math/plane_axes.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/sampler.hpp"
 #include "robot/pose.hpp"
@@ -40,8 +41,7 @@ AnyPose pose_of(const ArmLegs& robot, const SE3<double>& pose) {
 }
 std::span<const std::size_t> freedoms_of(const ArmLegs& robot) {
   static constexpr std::array<std::size_t, 6> all{0, 1, 2, 3, 4, 5};
-  static constexpr std::array<std::size_t, 3> flat{0, 1, 5};
-  return robot.is_planar ? std::span<const std::size_t>(flat) : std::span<const std::size_t>(all);
+  return robot.is_planar ? std::span<const std::size_t>(plane_axes) : std::span<const std::size_t>(all);
 }
 Value wrench_value(const ArmLegs& robot, const std::array<double, 6>& wrench) {
   std::vector<double> numbers;
