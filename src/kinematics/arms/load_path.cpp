@@ -12,8 +12,8 @@ namespace {
 constexpr double buckled = 1e-6;   ///< a margin that counts as none
 constexpr double shortest = 1e-9;  ///< a step over what was reached that is not worth another
 constexpr int most_steps = 2000;
-constexpr int most_iterations = 20000;  ///< of all steps
-constexpr int most_in_a_step = 60;      ///< iterations: a shorter step pays, then
+constexpr int most_iterations = 5000;  ///< of all steps
+constexpr int most_in_a_step = 60;     ///< iterations: a shorter step pays, then
 
 /// An equilibrium on the way.
 struct Place {
@@ -118,6 +118,7 @@ class LoadWalk {
     if (!follows) {
       if (is_spent) return end_at(held, LoadEnd::iterations);
       take_back(held);
+      growth_ = 1.1;
       if (step > shortest * std::max(last_.load, first_step_)) return 0.5 * step;
       options_.max_iterations = full_iterations_;
       const Status status = solve(last_.load + step).report.status;
@@ -131,7 +132,9 @@ class LoadWalk {
     path_.load = last_.load, path_.margin = last_.margin, path_.state = work_.impl().state;
     if (!has_potential() && last_.margin < 0 && path_.definite_until < 0) path_.definite_until = before_.load;
     if (is_spent) path_.end = LoadEnd::iterations;
-    return moved < 0.03 ? 1.6 * step : step;
+    const double next = moved < 0.03 ? growth_ * step : step;
+    growth_ = std::min(1.6, 1.06 * growth_);
+    return next;
   }
 
   void take_back(const std::vector<double>& held) {
@@ -154,6 +157,7 @@ class LoadWalk {
   ArmLoadPath path_;
   Place first_, before_, last_;
   double first_step_ = 0;
+  double growth_ = 1.6;  ///< of steps; less after one that failed, which costs as much as many
   int iterations_ = 0, full_iterations_ = 0;
 };
 
