@@ -360,6 +360,27 @@ TEST(ArmLegsInverse, WhatIsOutOfReachIsSaidInTime) {
   EXPECT_EQ(arm_legs_inverse(robot, {}, {}, {}, work).report.status, Status::bad_input);
 }
 
+/// Where the way back from a step that failed gives way, too, what was found before still counts; where
+/// nothing was, that is said.
+TEST(ArmLegsInverse, WhereASearchBeginsIsNotLost) {
+  const ArmLegs robot = tripod(false);
+  ArmLegsWorkspace work(robot);
+  ArmInverseOptions options;
+  options.arm.max_iterations = 2000;
+  const ArmTarget target{.position = std::array<double, 3>{0, 0, 0.19}};
+  const ArmLegsInverse pressed =
+      arm_legs_inverse(robot, target, {.wrench = {0, 0, -30, 0, 0, 0}}, options, work);
+  EXPECT_EQ(pressed.report.status, Status::unreachable) << pressed.report.message.view();
+  EXPECT_TRUE(pressed.state.report.ok());
+  EXPECT_NEAR(pressed.state.tip_loads[0][2] + pressed.state.tip_loads[1][2] + pressed.state.tip_loads[2][2],
+              -30 - 0.02 * 9.81, 1e-6);
+  ArmLegsLoad much;
+  much.points = {{0, 0.1, {0, 0, -1e9}}};
+  const Report none = arm_legs_inverse(robot, target, much, options, work).report;
+  EXPECT_EQ(none.status, Status::stalled);
+  EXPECT_NE(none.message.view().find("nowhere to begin"), std::string_view::npos) << none.message.view();
+}
+
 TEST(ArmLegsSense, ForwardsWrenchIsFoundAgain) {
   for (const bool is_clamped : {false, true}) {
     const ArmLegs robot = tripod(is_clamped);
