@@ -12,8 +12,8 @@ namespace {
 constexpr double buckled = 1e-6;   ///< a margin that counts as none
 constexpr double shortest = 1e-9;  ///< a step over what was reached that is not worth another
 constexpr int most_steps = 2000;
-constexpr int most_iterations = 5000;  ///< of all steps
-constexpr int most_in_a_step = 60;     ///< iterations: a shorter step pays, then
+constexpr int most_iterations = 20000;  ///< of all steps, and of ways back
+constexpr int most_in_a_step = 60;      ///< iterations: a shorter step pays, then
 
 /// An equilibrium on the way.
 struct Place {
@@ -59,7 +59,9 @@ class LoadWalk {
 
   const ArmState& solve(double factor) {
     for (std::size_t i = 0; i < 6; ++i) load_.wrench[i] = start_[i] + factor * direction_[i];
-    return arm_forward(arm_, commands_, load_, options_, work_);
+    const ArmState& state = arm_forward(arm_, commands_, load_, options_, work_);
+    iterations_ += state.report.iterations;
+    return state;
   }
 
   /// The equilibrium that the workspace holds.
@@ -87,6 +89,11 @@ class LoadWalk {
     const double a = 1 / (before_.speed * before_.speed), b = 1 / (last_.speed * last_.speed);
     return (last_.load - before_.load) * b / (a - b);
   }
+  /// Iterations that may be spent: fewer of a rod of many elements, each of which takes longer.
+  int budget() const {
+    const auto elements = static_cast<int>(work_.impl().rod().model().elements.size());
+    return std::clamp(400000 / elements, 1500, most_iterations);
+  }
   /// How far there is nothing to fear.
   double room() const {
     constexpr double any = std::numeric_limits<double>::infinity();
@@ -110,11 +117,10 @@ class LoadWalk {
     const std::vector<double> held = work_.impl().rod().work().y;
     const ArmState& state = solve(last_.load + step);
     ++path_.steps;
-    iterations_ += state.report.iterations;
     if (state.report.status == Status::stopped) return end_at(held, LoadEnd::stopped);
     const double moved = (state.tip.p - last_.tip).norm() / arm_.length();
     const bool follows = state.report.ok() && moved <= 4 * step * last_.speed + 1e-4 && moved < 0.1;
-    const bool is_spent = path_.steps >= most_steps || iterations_ >= most_iterations;
+    const bool is_spent = path_.steps >= most_steps || iterations_ >= budget();
     if (!follows) {
       if (is_spent) return end_at(held, LoadEnd::iterations);
       take_back(held);
