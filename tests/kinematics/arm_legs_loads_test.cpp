@@ -417,19 +417,19 @@ TEST(ArmLegsLoads, TheyMayMoveAlongLegs) {
     }
 }
 
-void expect_every_question_takes(const ArmLegsLoad& on_legs) {
+void expect_every_question_takes(const ArmLegsLoad& loaded) {
   const ArmLegs robot = tripod(false);
   ArmLegsWorkspace work(robot), other(robot);
   const auto commands = mixed();
-  const ArmLegsState there = arm_legs_forward(robot, commands, on_legs, {}, work);
+  const ArmLegsState there = arm_legs_forward(robot, commands, loaded, {}, work);
   ASSERT_TRUE(there.report.ok());
   EXPECT_LE(there.resolution, 1e-6 * 0.2);
-  ArmLegsLoad without = on_legs;
+  ArmLegsLoad without = loaded;
   without.wrench = {};
   // until
   const ArmLegsState begun = arm_legs_forward(robot, commands, without, {}, other);
   ASSERT_TRUE(begun.report.ok());
-  const ArmLegsLoadPath path = arm_legs_follow_load(robot, on_legs.wrench, 1, other);
+  const ArmLegsLoadPath path = arm_legs_follow_load(robot, loaded.wrench, 1, other);
   ASSERT_EQ(path.end, LoadEnd::limit);
   EXPECT_LT(distance(path.state.platform, there.platform), 2e-6);
   // held there by the wrench, from elsewhere, too
@@ -441,7 +441,7 @@ void expect_every_question_takes(const ArmLegsLoad& on_legs) {
     }
     const ArmLegsHeld held = arm_legs_hold(robot, there.platform, commands, without, options, other);
     ASSERT_TRUE(held.state.report.ok()) << held.state.report.message.view();
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(held.wrench[i], on_legs.wrench[i], 2e-4);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(held.wrench[i], loaded.wrench[i], 2e-4);
   }
   // sensed by what the tendons pull and the pose
   ArmLegsMeasurement measured{.held = commands, .answers = there.tensions};
@@ -452,7 +452,7 @@ void expect_every_question_takes(const ArmLegsLoad& on_legs) {
   measured.quaternion = std::array<double, 4>{turn.w, turn.v[0], turn.v[1], turn.v[2]};
   const ArmLegsSensed sensed = arm_legs_sense(robot, measured, without, false, {}, other);
   ASSERT_TRUE(sensed.report.ok()) << sensed.report.message.view();
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(sensed.wrench[i], on_legs.wrench[i], 1e-3);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(sensed.wrench[i], loaded.wrench[i], 1e-3);
   // tensions that hold the pose, from an equilibrium without the loads, too
   for (const bool from_last : {false, true}) {
     ArmInverseOptions options;
@@ -461,17 +461,17 @@ void expect_every_question_takes(const ArmLegsLoad& on_legs) {
       ASSERT_TRUE(arm_legs_forward(robot, uneven, {}, {}, other).report.ok());
     }
     const ArmLegsInverse found = arm_legs_inverse(
-        robot, {.position = measured.position, .quaternion = measured.quaternion}, on_legs, options, other);
+        robot, {.position = measured.position, .quaternion = measured.quaternion}, loaded, options, other);
     ASSERT_TRUE(found.report.ok()) << found.report.message.view();
     std::vector<TendonCommand> pulled;
     for (const double tension : found.state.tensions) pulled.push_back({TendonHeld::tension, tension});
-    const ArmLegsState back = arm_legs_forward(robot, pulled, on_legs, {}, other);
+    const ArmLegsState back = arm_legs_forward(robot, pulled, loaded, {}, other);
     EXPECT_LT(distance(back.platform, there.platform), 5e-6);
   }
   // along a path on which loads come, move and go
   std::vector<ArmLegsStep> steps(4);
   steps[0] = {.commands = commands, .divisions = 1};
-  steps[1] = {.commands = commands, .load = on_legs, .divisions = 3};
+  steps[1] = {.commands = commands, .load = loaded, .divisions = 3};
   steps[2] = {.commands = commands, .load = without, .divisions = 2};
   steps[2].load.points = {{1, 0.05, {0.1, 0, 0}}};
   steps[3] = {.commands = commands, .divisions = 2};
@@ -481,7 +481,7 @@ void expect_every_question_takes(const ArmLegsLoad& on_legs) {
   EXPECT_LT(distance(points[5].platform, arm_legs_forward(robot, commands, steps[2].load, {}, work).platform),
             2e-6);
   EXPECT_LT(distance(points[7].platform, points[0].platform), 2e-6);
-  ArmLegsLoad half = on_legs;  // evenly
+  ArmLegsLoad half = loaded;  // evenly
   const double share = 1.0 / 3;
   for (double& number : half.wrench) number *= share;
   for (double& number : half.along) number *= share;
@@ -491,13 +491,13 @@ void expect_every_question_takes(const ArmLegsLoad& on_legs) {
     for (double& number : point.wrench) number *= share;
   EXPECT_LT(distance(points[1].platform, arm_legs_forward(robot, commands, half, {}, work).platform), 2e-6);
   // other equilibria, and a start at one
-  const auto all = arm_legs_equilibria(robot, commands, on_legs, {}, 5, other);
+  const auto all = arm_legs_equilibria(robot, commands, loaded, {}, 5, other);
   ASSERT_FALSE(all.empty());
   double nearest = 1;
   for (const ArmLegsEquilibrium& one : all)
     nearest = std::min(nearest, distance(one.state.platform, there.platform));
   EXPECT_LT(nearest, 2e-6);
-  const ArmLegsState again = arm_legs_forward_from(robot, all.front().start, commands, on_legs, {}, work);
+  const ArmLegsState again = arm_legs_forward_from(robot, all.front().start, commands, loaded, {}, work);
   ASSERT_TRUE(again.report.ok()) << again.report.message.view();
   EXPECT_LT(distance(again.platform, all.front().state.platform), 2e-6);
 }
