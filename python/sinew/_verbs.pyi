@@ -105,14 +105,15 @@ class Verbs:
                 out, section after section, of legs of sections leg after leg; a list each, or an array
             slack (numbers) [m]: what the tendons of each section are paid out beyond its configuration; < 0
                 stiffens; (k,)
-            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
-                turn; (3,) in the plane, (6,) in space
+            following (numbers) [N, N m]: force and moment on an arm's tip, or on the platform on legs of
+                sections, in its own axes, with which they turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
                 sections, in base axes [N/m]; (3,)
-            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; in the plane x
+                to its right and y along it; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
-                0, place and wrench, whose moment is 0
+                it, wrench and, where it turns with the place, following; on legs of sections with the leg,
+                from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -243,14 +244,15 @@ class Verbs:
                 sections; of statics where it was seen; (3,)
             direction (numbers): in which the tip of a serial robot or an arm points, or the z axis of the
                 platform on legs of sections; (3,)
-            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
-                turn; (3,) in the plane, (6,) in space
+            following (numbers) [N, N m]: force and moment on an arm's tip, or on the platform on legs of
+                sections, in its own axes, with which they turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
                 sections, in base axes [N/m]; (3,)
-            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; in the plane x
+                to its right and y along it; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
-                0, place and wrench, whose moment is 0
+                it, wrench and, where it turns with the place, following; on legs of sections with the leg,
+                from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -388,14 +390,15 @@ class Verbs:
                 extension; sections not given are straight; a list each, or an array
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
                 out, section after section, of legs of sections leg after leg; a list each, or an array
-            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
-                turn; (3,) in the plane, (6,) in space
+            following (numbers) [N, N m]: force and moment on an arm's tip, or on the platform on legs of
+                sections, in its own axes, with which they turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
                 sections, in base axes [N/m]; (3,)
-            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; in the plane x
+                to its right and y along it; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
-                0, place and wrench, whose moment is 0
+                it, wrench and, where it turns with the place, following; on legs of sections with the leg,
+                from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -545,14 +548,15 @@ class Verbs:
                 out, section after section, of legs of sections leg after leg; a list each, or an array
             position (numbers) [m]: of the tip of a serial robot or an arm, or of the platform on legs of
                 sections; of statics where it was seen; (3,)
-            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
-                turn; (3,) in the plane, (6,) in space
+            following (numbers) [N, N m]: force and moment on an arm's tip, or on the platform on legs of
+                sections, in its own axes, with which they turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
                 sections, in base axes [N/m]; (3,)
-            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; in the plane x
+                to its right and y along it; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
-                0, place and wrench, whose moment is 0
+                it, wrench and, where it turns with the place, following; on legs of sections with the leg,
+                from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -689,14 +693,15 @@ class Verbs:
                 added unless one of them is named
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
-            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
-                turn; (3,) in the plane, (6,) in space
+            following (numbers) [N, N m]: force and moment on an arm's tip, or on the platform on legs of
+                sections, in its own axes, with which they turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
                 sections, in base axes [N/m]; (3,)
-            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; in the plane x
+                to its right and y along it; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
-                0, place and wrench, whose moment is 0
+                it, wrench and, where it turns with the place, following; on legs of sections with the leg,
+                from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
@@ -911,14 +916,15 @@ class Verbs:
                 extension; sections not given are straight; a list each, or an array
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
                 out, section after section, of legs of sections leg after leg; a list each, or an array
-            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
-                turn; (3,) in the plane, (6,) in space
+            following (numbers) [N, N m]: force and moment on an arm's tip, or on the platform on legs of
+                sections, in its own axes, with which they turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, or on those of all legs of
                 sections, in base axes [N/m]; (3,)
-            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; in the plane x
+                to its right and y along it; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
-                it, wrench and, where it turns with the place, following; on legs of sections of leg, from
-                0, place and wrench, whose moment is 0
+                it, wrench and, where it turns with the place, following; on legs of sections with the leg,
+                from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs

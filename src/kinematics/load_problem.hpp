@@ -97,9 +97,7 @@ class LoadProblem {
     scaled.template rightCols<unknowns - forces>() /= group_.radius();
     return signs.own + count_left_of_zero(MatrixView(scaled.data(), unknowns, unknowns));
   }
-  bool is_symmetric() const {
-    return forces == 2 || group_.wrench().template tail<unknowns - forces>().isZero(0);
-  }
+  bool is_symmetric() const { return group_.has_potential(); }
   double margin() const { return group_.margin(); }
   /// @}
 

@@ -377,11 +377,13 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
       for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + step_[i];
       evaluate();
       ++result.evaluations;
-      linearise(true);
+      linearise(false);
       result.residual = gradient_norm();
       accept = result.residual < 3 * before;
-      if (!accept) {
-        restore();
+      if (!accept) {  // the Hessian's terms are still those of where it was
+        std::copy(trial_.begin(), trial_.end(), work_.y.begin());
+        evaluate();
+        linearise(false);
         shift = std::max(4 * shift, 0.01);
       }
     }
@@ -392,6 +394,7 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
       return result;
     }
     if (by_rounding) return result;
+    if (result.residual > options.tolerance) linearise(true);
     shift *= std::clamp(result.residual / before, 0.1, 2.0);
     if (shift < 1e-4) shift = 0;
   }

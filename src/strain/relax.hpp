@@ -27,6 +27,7 @@ struct RelaxOptions {
   int max_iterations = 200;
   double tolerance = 1e-10;  ///< of the gradient, over √(EI/L)
   bool leave_saddles = true;
+  bool may_grow = true;  ///< where all else fails loads and inputs grow from nothing: from wherever it began
   std::function<bool()> stop;
 };
 
@@ -36,6 +37,7 @@ struct Relaxed {
   double residual = 0;  ///< of the gradient, over √(EI/L)
   int negative = 0;     ///< directions in which the energy falls
   double reached = 1;   ///< share of loads and inputs up to which equilibria were found
+  bool grew = false;    ///< loads and inputs grew from nothing
 };
 
 /// After each round of a search that has not found its end: whether it ends nevertheless, and why.

@@ -193,10 +193,11 @@ Relaxed LoadedRod::search(const RelaxOptions& options) {
   work_.y = start;
   result = tighten(direct, much, expected);
   result.iterations += spent;
-  if (ended() || result.status == Status::unreachable) return result;
+  if (ended() || result.status == Status::unreachable || !options.may_grow) return result;
   for (const double share : {much, little}) {
     spent = result.iterations;
     result = grow(options, share);
+    result.grew = true;
     result.iterations += spent;
     if (ended()) break;
   }

@@ -202,6 +202,63 @@ TEST(ArmLegsHold, AnotherPoseIsHeldByWhatForwardThenBears) {
   }
 }
 
+/// The way to the pose begins with a free platform; where legs do not bear one under the loads, with less of
+/// them, and the rest comes while the platform is held.
+TEST(ArmLegsHold, LegsBearWhatAFreePlatformDoesNot) {
+  const ArmLegs robot = tripod(false);
+  ArmLegsLoad light, heavy;
+  for (const std::size_t leg : {0U, 1U, 2U})
+    heavy.points.push_back({leg, 0.1, {0.2, -0.1, leg == 1 ? -2.0 : -4.0}});
+  ArmLegsWorkspace work(robot), other(robot);
+  const SE3<double> pose = arm_legs_forward(robot, uneven, light, {}, work).platform;
+  ArmOptions options;
+  options.max_iterations = 2000;
+  EXPECT_FALSE(arm_legs_forward(robot, uneven, heavy, options, other).report.ok());
+  const ArmLegsHeld held = arm_legs_hold(robot, pose, uneven, heavy, options, other);
+  ASSERT_TRUE(held.state.report.ok()) << held.state.report.message.view();
+  Vec<double, 6> sum = Vec<double, 6>::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& tip = held.state.tip_loads[k];
+    const Vec3<double> force(tip[0], tip[1], tip[2]);
+    sum.head<3>() += force;
+    sum.tail<3>() += cross(Vec3<double>(pose.rotate(robot.legs[k].platform_point)), force);
+  }
+  sum[2] += robot.platform_mass * 9.81;
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(held.wrench[i], sum[static_cast<int>(i)], 1e-9);
+  // The same by way of a platform that is held there first, to which the loads come then.
+  ASSERT_TRUE(arm_legs_hold(robot, pose, uneven, light, {}, work).state.report.ok());
+  options.from_last = true;
+  const ArmLegsHeld then = arm_legs_hold(robot, pose, uneven, heavy, options, work);
+  ASSERT_TRUE(then.state.report.ok()) << then.state.report.message.view();
+  EXPECT_TRUE(then.state.report.message.empty());
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(then.wrench[i], held.wrench[i], 2e-4);
+}
+
+TEST(ArmLegsHold, WhyAPlatformIsNotHeldIsSaid) {
+  const ArmLegs robot = tripod(false);
+  ArmLegsWorkspace work(robot);
+  const auto says = [&](const SE3<double>& pose, const ArmLegsLoad& load, ArmModel model) {
+    ArmOptions options;
+    options.model = model;
+    options.max_iterations = 2000;
+    const Report report =
+        arm_legs_hold(robot, pose, std::vector<TendonCommand>(18), load, options, work).state.report;
+    EXPECT_EQ(report.status, Status::stalled);
+    return std::string(report.message.view());
+  };
+  const SE3<double> far = SE3<double>::from({{0.02, 0, 0.2}, {1, 0.1, 0, 0}});
+  EXPECT_NE(
+      says(far, {}, ArmModel::subsegment_rod).find("out of reach: from its base to the platform it is 0.2"),
+      std::string::npos);
+  ArmLegsLoad much;
+  much.points = {{0, 0.1, {0, 0, -1e4}}};
+  for (const std::string& message : {says({{0, 0, 0.18}, {}}, much, ArmModel::subsegment_rod),
+                                     says({{0, 0, 0.18}, {}}, much, ArmModel::cc)}) {
+    EXPECT_NE(message.find("of the way to the pose"), std::string::npos) << message;
+    EXPECT_NE(message.find(": "), std::string::npos) << message;
+  }
+}
+
 TEST(ArmLegsHold, WhatLegsDoNotReachIsSaid) {
   const ArmLegs robot = tripod(false);
   ArmLegsWorkspace work(robot);
@@ -301,6 +358,27 @@ TEST(ArmLegsInverse, WhatIsOutOfReachIsSaidInTime) {
     EXPECT_EQ(found.report.status, Status::unreachable) << found.report.message.view();
   }
   EXPECT_EQ(arm_legs_inverse(robot, {}, {}, {}, work).report.status, Status::bad_input);
+}
+
+/// Where the way back from a step that failed gives way, too, what was found before still counts; where
+/// nothing was, that is said.
+TEST(ArmLegsInverse, WhereASearchBeginsIsNotLost) {
+  const ArmLegs robot = tripod(false);
+  ArmLegsWorkspace work(robot);
+  ArmInverseOptions options;
+  options.arm.max_iterations = 2000;
+  const ArmTarget target{.position = std::array<double, 3>{0, 0, 0.19}};
+  const ArmLegsInverse pressed =
+      arm_legs_inverse(robot, target, {.wrench = {0, 0, -30, 0, 0, 0}}, options, work);
+  EXPECT_EQ(pressed.report.status, Status::unreachable) << pressed.report.message.view();
+  EXPECT_TRUE(pressed.state.report.ok());
+  EXPECT_NEAR(pressed.state.tip_loads[0][2] + pressed.state.tip_loads[1][2] + pressed.state.tip_loads[2][2],
+              -30 - 0.02 * 9.81, 1e-6);
+  ArmLegsLoad much;
+  much.points = {{0, 0.1, {0, 0, -1e9}}};
+  const Report none = arm_legs_inverse(robot, target, much, options, work).report;
+  EXPECT_EQ(none.status, Status::stalled);
+  EXPECT_NE(none.message.view().find("nowhere to begin"), std::string_view::npos) << none.message.view();
 }
 
 TEST(ArmLegsSense, ForwardsWrenchIsFoundAgain) {

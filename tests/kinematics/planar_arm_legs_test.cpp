@@ -176,13 +176,19 @@ TEST(PlanarArmLegs, EveryLegAloneIsTheArmInSpaceUnderItsForce) {
 /// the last equilibrium on is what the rest grows into.
 TEST(PlanarArmLegs, LegsBearLoadsInThePlane) {
   const auto commands = mixed();
-  for (const int discs : {5, 0})
+  for (const auto& [discs, turns] : {std::pair{5, false}, {0, false}, {5, true}})
     for (ArmLegs robot : every_robot()) {
       for (ArmLeg& leg : robot.legs)
         for (ArmSection& section : leg.arm.sections) section.discs.count = discs;
       ArmLegsLoad load = pushed;
       load.along = {0.2, -0.3, 0};
       load.points = {{0, 0.033, {0.05, 0.08}}, {2, 0.2, {-0.06, 0.02}}, {1, 0.1, {0, 0.03}}};
+      if (turns) {  // a leg's own y axis is square to the plane
+        load.points.push_back({0, 0.08, {0.02, 0, 0, 0, 0, 2e-3}});
+        load.points.push_back({1, 0.15, {0.04, 0, -0.05, 0, 1e-3, 0}, true});
+        load.following = {0.02, -0.05, 0, 0, 0, 1e-3};
+        load.following_along = {0.2, 0, -0.1};
+      }
       ArmLegsWorkspace work(robot), other(robot);
       const ArmLegsState state = arm_legs_forward(robot, commands, load, {.accuracy = 0}, work);
       ASSERT_TRUE(state.report.ok()) << robot.name << ' ' << state.report.message.view();
@@ -206,10 +212,15 @@ TEST(PlanarArmLegs, LegsBearLoadsInThePlane) {
         own.along = back(load.along[0], load.along[1]);
         for (const ArmLegsPointLoad& point : load.points) {
           if (point.leg != k) continue;
+          PointLoad& on_arm = own.points.emplace_back();
+          on_arm.place = point.place;
+          on_arm.wrench = point.wrench;
+          if (on_arm.following = point.following; point.following) continue;
           const auto f = back(point.wrench[0], point.wrench[1]);
-          own.points.emplace_back().place = point.place;
-          own.points.back().wrench = {f[0], f[1], f[2], 0, 0, 0};
+          const Vec3<double> m = base.rotate_back(Vec3<double>(0, 0, point.wrench[5]));
+          on_arm.wrench = {f[0], f[1], f[2], m[0], m[1], m[2]};
         }
+        own.following_along = load.following_along;
         ArmWorkspace alone(arm);
         const ArmState one =
             arm_forward(arm, std::span(commands).subspan(4 * k, 4), own, {.accuracy = 0}, alone);
@@ -219,8 +230,12 @@ TEST(PlanarArmLegs, LegsBearLoadsInThePlane) {
         for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(one.tensions[i], state.tensions[4 * k + i], 1e-5);
         across[0] += tip[0], across[1] += tip[1];
       }
+      const Vec3<double> with = state.platform.rotate(Vec3<double>(load.following[0], load.following[1], 0));
       for (std::size_t i = 0; i < 2; ++i)
-        EXPECT_NEAR(across[i], pushed.wrench[i] + robot.platform_mass * robot.gravity[i], 1e-8);
+        EXPECT_NEAR(across[i],
+                    pushed.wrench[i] + robot.platform_mass * robot.gravity[i] + with[static_cast<int>(i)],
+                    1e-8);
+      if (turns) load.following_along = {}, load.following = {};
       ArmOptions warm;
       warm.from_last = true;
       load.points = {{0, 0.033, {0.05, 0.02}}};
@@ -397,8 +412,17 @@ TEST(PlanarArmLegs, WhatLeavesThePlaneIsRefused) {
   out.along = {};
   out.points = {{0, 0.1, {0, 0, 0.1}}};
   EXPECT_EQ(arm_legs_forward(robot, tensions(), out, {}, work).report.status, Status::bad_input);
-  out.points = {{0, 0.1, {0, 0, 0, 0, 0, 0.1}}};
-  EXPECT_EQ(arm_legs_forward(robot, tensions(), out, {}, work).report.status, Status::unsupported);
+  for (const std::size_t k : {1U, 3U, 5U}) {  // of a leg's own axes y is square to the plane
+    out.points = {{0, 0.1, {}, true}};
+    out.points[0].wrench[k] = 1e-3;
+    EXPECT_EQ(arm_legs_forward(robot, tensions(), out, {}, work).report.status, Status::bad_input);
+  }
+  out.points = {};
+  out.following_along = {0, 0.1, 0};
+  EXPECT_EQ(arm_legs_forward(robot, tensions(), out, {}, work).report.status, Status::bad_input);
+  out.following_along = {};
+  out.following[2] = 0.1;
+  EXPECT_EQ(arm_legs_forward(robot, tensions(), out, {}, work).report.status, Status::bad_input);
   const ArmLegsLoad down{.gravity = std::array<double, 3>{0, 0, -9.81}};
   EXPECT_EQ(arm_legs_forward(robot, tensions(), down, {}, work).report.status, Status::bad_input);
   const SE3<double> above{{0, 0, 1e-3}, {}}, tilted{{0, 0, 0}, SO3<double>::exp({0.1, 0, 0})};

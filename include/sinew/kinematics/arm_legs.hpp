@@ -13,19 +13,24 @@
 
 namespace sinew::inline v1 {
 
-/// A load at a place of a leg's backbone, which keeps its direction.
+/// A load at a place of a leg's backbone.
 struct ArmLegsPointLoad {
   std::size_t leg = 0;             ///< from 0
   double place = 0;                ///< from the leg's base along its backbone [m]
-  std::array<double, 6> wrench{};  ///< base axes; its moment has to be 0 [N, N m]
+  std::array<double, 6> wrench{};  ///< force and moment about that place [N, N m]
+  bool following = false;          ///< in the axes of the place, which it turns with; else in base axes
 };
 
-/// What acts on the robot beside its weight.
+/// What acts on the robot beside its weight. What follows, and in space any moment, has no potential: an
+/// equilibrium under it counts as stable where the symmetric part of its stiffness, legs included, is
+/// positive definite. That is enough, but not needed.
 struct ArmLegsLoad {
   std::array<double, 6> wrench{};  ///< on the platform, about its reference point, base axes [N, N m]
   std::optional<std::array<double, 3>> gravity = {};  ///< in place of the robot's [m/s²]
   std::array<double, 3> along{};                      ///< on all backbones, base axes [N/m]
   std::vector<ArmLegsPointLoad> points = {};          ///< on backbones
+  std::array<double, 6> following{};        ///< on the platform, in its axes, with which it turns [N, N m]
+  std::array<double, 3> following_along{};  ///< on all backbones, in their own axes, z along them [N/m]
 };
 
 /// An equilibrium; tendons are those of leg 0 first. Of the best iterate where it is none.
@@ -37,7 +42,8 @@ struct ArmLegsState {
   std::vector<double> slack;                     ///< what a tendon is longer than its way [m]; 0: it is taut
   std::vector<std::array<double, 6>> tip_loads;  ///< of the platform on every tip, base axes [N, N m]
   bool stable = false;
-  double energy = 0;      ///< elastic, of weight, of the load's forces and of tendons that stretch [J]
+  double energy = 0;      ///< elastic, of weight, of forces that keep their direction and of tendons that
+                          ///< stretch [J]
   double resolution = 0;  ///< by how much tips move with finer polynomials [m]; 0: not asked for
   double reached = 0;     ///< share of inputs and loads up to which there was an equilibrium that holds [1]
 };
@@ -46,9 +52,9 @@ struct ArmLegsState {
 /// `options.from_last` the one into which that of the workspace changes, as what is held and loads do;
 /// where there is none, or the way to it gives way, that of the rest, and in the latter case `message` says
 /// so. `bad_input`: commands of another number, a tension below 0, a load where there is no leg.
-/// `unsupported`: what is not built for legs, as moments on them.
+/// `unsupported`: what is not built for legs, as a balance that is not by energy.
 /// `stalled`: up to `reached` of inputs and loads there was an equilibrium that holds, and beyond none was
-/// found: it may have given way.
+/// found: it may have given way. Under loads without a potential it may be that beyond none is known to hold.
 /// @param commands of every tendon, those of leg 0 first, in it those of the first section first
 SINEW_API const ArmLegsState& arm_legs_forward(const ArmLegs& robot, std::span<const TendonCommand> commands,
                                                const ArmLegsLoad& load, const ArmOptions& options,

@@ -47,6 +47,18 @@ bool has_other_joints(const strain::RodModel& a, const strain::RodModel& b) {
          });
 }
 
+/// In the plane a moment has one: it turns about one axis alone.
+bool bears_a_potential(const ArmLoad& load, bool is_planar) {
+  const auto is_zero = [](std::span<const double> numbers) {
+    return std::ranges::all_of(numbers, [](double x) { return x == 0; });
+  };
+  return is_zero(load.following_along) && std::ranges::all_of(load.points, [&](const PointLoad& point) {
+           return is_zero(point.following || !is_planar
+                              ? std::span(point.wrench).last(point.following ? 6 : 3)
+                              : std::span<const double>());
+         });
+}
+
 }  // namespace
 
 LegsLoads mix(const LegsLoads& from, const LegsLoads& to, double share) {
@@ -55,7 +67,10 @@ LegsLoads mix(const LegsLoads& from, const LegsLoads& to, double share) {
   for (std::size_t i = 0; i < 3; ++i) {
     loads.gravity[i] = std::lerp(from.gravity[i], to.gravity[i], share);
     loads.along[i] = std::lerp(from.along[i], to.along[i], share);
+    loads.following_along[i] = std::lerp(from.following_along[i], to.following_along[i], share);
   }
+  for (std::size_t i = 0; i < 6; ++i)
+    loads.following[i] = std::lerp(from.following[i], to.following[i], share);
   const auto add = [&](const std::vector<ArmLegsPointLoad>& points, double part) {
     if (part == 0) return;
     for (ArmLegsPointLoad point : points) {
@@ -227,18 +242,22 @@ void ArmGroup::set_share(double share) {
     for (std::size_t i = 0; i < 3; ++i) {
       (*load.gravity)[i] = share * loads_.gravity[i];
       load.along[i] = share * loads_.along[i];
+      load.following_along[i] = share * loads_.following_along[i];
     }
   }
   for (const ArmLegsPointLoad& point : loads_.points) {
     PointLoad& own = loads[point.leg].points.emplace_back();
     own.place = point.place;
-    for (std::size_t i = 0; i < 3; ++i) own.wrench[i] = share * point.wrench[i];
+    own.following = point.following;
+    for (std::size_t i = 0; i < 6; ++i) own.wrench[i] = share * point.wrench[i];
   }
   for (std::size_t k = 0; k < legs_.size(); ++k) {
     Leg& leg = legs_[k];
     const ArmLoad& load = loads[k];
     set_loads(leg.own->arm, load, rod(leg).model(), rod(leg).work().loads);
     leg.tip = rod(leg).work().loads.back();
+    leg.has_potential = bears_a_potential(load, robot_->is_planar);
+    rod(leg).work().symmetric = leg.has_potential;
     for (Tendon& tendon : leg.tendons) {
       const double value = tendon.command.value;
       if (tendon.command.held == TendonHeld::tension)
@@ -413,7 +432,7 @@ void ArmGroup::evaluate(Leg& leg) {
 }
 
 double ArmGroup::evaluate(bool) {
-  balance_ = share_ * wrench_;
+  balance_ = share_ * wrench_ + turning_wrench();
   for (int i = 0; i < 3; ++i) balance_[i] += share_ * robot_->platform_mass * loads_.gravity[at(i)];
   limb_error_ = 0;
   double unit = 0;
@@ -438,7 +457,7 @@ bool ArmGroup::factor(Leg& leg) {
   leg.B.setZero(all, n);
   leg.L.setZero(static_cast<int>(leg.tendons.size()) - taut, n);
   leg.r.resize(all);
-  leg.D.setZero(all, all);
+  leg.C.setZero(all);
   int held = 0;
   for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
     Tendon& tendon = leg.tendons[i];
@@ -446,7 +465,7 @@ bool ArmGroup::factor(Leg& leg) {
     if (tendon.is_taut) {
       leg.B.row(tendon.place) = row;
       leg.r[tendon.place] = work.lengths[i] - tendon.free_length - tendon.compliance * tendon.tension;
-      leg.D(tendon.place, tendon.place) = tendon.compliance;
+      leg.C[tendon.place] = tendon.compliance;
     } else if (tendon.command.held == TendonHeld::tension) {
       leg.L.row(tendon.place) = row;
       ++held;
@@ -477,7 +496,7 @@ bool ArmGroup::factor(Leg& leg) {
   }
   for (int next = leg.forces(); const int pivot : model.pivots) {
     leg.B(next, pivot) = 1;
-    leg.D(next, next) = -1;
+    leg.C[next] = -1;
     leg.r[next] = 0;
     ++next;
   }
@@ -490,8 +509,9 @@ bool ArmGroup::factor(Leg& leg) {
   leg.HB = sides.leftCols(all);
   leg.HL = sides.middleCols(all, held);
   leg.y0 = sides.col(all + held);
-  leg.D += leg.B * leg.HB;
-  leg.D = (0.5 * (leg.D + leg.D.transpose())).eval();
+  leg.D = leg.B * leg.HB;
+  leg.D.diagonal() += leg.C;
+  if (leg.has_potential) leg.D = (0.5 * (leg.D + leg.D.transpose())).eval();
   leg.r += leg.B * leg.y0;
   leg.du = Vector::Zero(all);
   return leg.D.allFinite() && leg.r.allFinite();
@@ -508,6 +528,27 @@ Mat<double, 6, 6> ArmGroup::curvature(const Leg& leg) const {
   change.bottomRightCorner<3, 3>() =
       skew<double>(leg.force) * skew<double>(b) - 0.5 * skew<double>(moment_of(leg));
   return change;
+}
+
+auto ArmGroup::turning_wrench() const -> Wrench {
+  const auto& own = loads_.following;
+  Wrench wrench;
+  wrench.head<3>() = platform_.rotate(Vec3<double>(own[0], own[1], own[2]));
+  wrench.tail<3>() = platform_.rotate(Vec3<double>(own[3], own[4], own[5]));
+  return share_ * wrench;
+}
+Mat<double, 6, 6> ArmGroup::following_curvature() const {
+  const Wrench wrench = turning_wrench();
+  Mat<double, 6, 6> change = Mat<double, 6, 6>::Zero();
+  change.topRightCorner<3, 3>() = skew<double>(wrench.head<3>());
+  change.bottomRightCorner<3, 3>() = skew<double>(wrench.tail<3>());
+  return change;
+}
+
+bool ArmGroup::has_potential() const {
+  return std::ranges::all_of(loads_.following, [](double x) { return x == 0; }) &&
+         (robot_->is_planar || wrench_.tail<3>().isZero(0)) &&
+         std::ranges::all_of(legs_, [](const Leg& leg) { return leg.has_potential; });
 }
 
 /// By which a leg's unknown forces count alike.
@@ -542,14 +583,16 @@ ArmGroup::Vector ArmGroup::units() const {
   return unit;
 }
 
-ArmGroup::Matrix ArmGroup::whole() const {
+ArmGroup::Matrix ArmGroup::whole(std::span<const EvenPart> even) const {
   const Vector unit = units();
   const auto size = unit.size();
   Matrix whole = Matrix::Zero(size, size);
+  whole.bottomRightCorner(6, 6) = following_curvature();
   Eigen::Index next = 0;
-  for (const Leg& leg : legs_) {
+  for (std::size_t k = 0; k < legs_.size(); ++k) {
+    const Leg& leg = legs_[k];
     const int all = leg.unknowns();
-    whole.block(next, next, all, all) = -leg.D;
+    whole.block(next, next, all, all) = even.empty() ? -leg.D : -even[k].D;
     whole.block(next, size - 6, all, 6) = leg.X;
     whole.block(size - 6, next, 6, all) = leg.X.transpose();
     whole.bottomRightCorner(6, 6) += curvature(leg);
@@ -617,11 +660,40 @@ void ArmGroup::move_as_planned() {
   platform_ = after;
 }
 
+/// The rod's factors stay those of its own Hessian.
+ArmGroup::EvenPart ArmGroup::even_part(const Leg& leg) const {
+  if (leg.has_potential) return {leg.D, leg.negative, true};
+  EvenPart even;
+  const strain::RodModel& model = rod(leg).model();
+  strain::RodWork& work = rod(leg).work();
+  const std::vector<strain::PieceTerms> kept = work.pieces;
+  make_symmetric(model, work);
+  if (const strain::Inertia inertia = strain::factor(model, work, 0); inertia.ok) {
+    const int all = leg.unknowns(), stride = (all + strain::row - 1) / strain::row * strain::row;
+    Matrix sides = Matrix::Zero(model.size, stride);
+    sides.leftCols(all) = leg.B.transpose();
+    strain::solve(model, work, sides.data(), all, stride);
+    even.D = leg.B * sides.leftCols(all);
+    even.D.diagonal() += leg.C;
+    even.D = (0.5 * (even.D + even.D.transpose())).eval();
+    even.negative = inertia.negative;
+    even.ok = even.D.allFinite();
+  }
+  work.pieces = kept;
+  work.symmetric = false;
+  return even;
+}
+
 int ArmGroup::unstable() const {
-  const Matrix matrix = whole();
-  if (!matrix.allFinite()) return -1;
+  std::vector<EvenPart> parts;
   int count = 0;
-  for (const Leg& leg : legs_) count += leg.negative - leg.forces();
+  for (const Leg& leg : legs_) {
+    const EvenPart& even = parts.emplace_back(even_part(leg));
+    if (!even.ok) return -1;
+    count += even.negative - leg.forces();
+  }
+  const Matrix matrix = whole(parts);
+  if (!matrix.allFinite()) return -1;
   const Matrix even = 0.5 * (matrix + matrix.transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(even, Eigen::EigenvaluesOnly);
   for (const double value : found.eigenvalues()) count += value < 0;
@@ -698,13 +770,22 @@ bool ArmGroup::plan_held() {
 
 int ArmGroup::unstable_held() const {
   int count = 0;
-  for (int k = 0; k < limbs(); ++k) count += unstable_with_tip_held(k)[0];
+  for (const Leg& leg : legs_) {
+    const EvenPart even = even_part(leg);
+    if (!even.ok) return -1;
+    count += unstable_with_tip_held(leg, even.D, even.negative);
+  }
   return count;
+}
+
+int ArmGroup::unstable_by_symmetric_part() const {
+  const bool all = std::ranges::all_of(legs_, [](const Leg& leg) { return leg.has_potential; });
+  return all ? -1 : std::max(0, unstable());
 }
 
 bool ArmGroup::linearise() {
   if (!factor_limbs()) return false;
-  stiffness_.setZero();
+  stiffness_ = following_curvature();
   residual_ = balance_;
   double across = 0, around = 0;
   for (Leg& leg : legs_) {
@@ -755,12 +836,22 @@ auto ArmGroup::input_wrench_jacobian(int input) const -> Wrench {
   return -leg->X.transpose() * (leg->D_inverse * (leg->B * leg->HL.col(tendon->place)));
 }
 
-std::array<int, 2> ArmGroup::unstable_with_tip_held(int limb) const {
-  const Leg& leg = legs_[at(limb)];
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(leg.D, Eigen::EigenvaluesOnly);
+/// @param D, negative symmetric: the compliance, and directions of the Hessian
+int ArmGroup::unstable_with_tip_held(const Leg& leg, const Matrix& D, int negative) const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(D, Eigen::EigenvaluesOnly);
   int stiff = 0;
   for (const double value : found.eigenvalues()) stiff += value < 0;
-  return {leg.negative - stiff + static_cast<int>(leg.pivots().size()), 0};
+  return negative - stiff + static_cast<int>(leg.pivots().size());
+}
+
+/// Where loads have no potential the sign of the leg's determinant is told, by 0 or 1.
+std::array<int, 2> ArmGroup::unstable_with_tip_held(int limb) const {
+  const Leg& leg = legs_[at(limb)];
+  if (leg.has_potential) return {unstable_with_tip_held(leg, leg.D, leg.negative), 0};
+  const Vector unit = units_of(leg);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(unit.asDiagonal() * leg.D * unit.asDiagonal());
+  const int is_turned = lu.determinant() < 0, pivots = static_cast<int>(leg.pivots().size());
+  return {(leg.negative + is_turned + pivots) % 2, 0};
 }
 
 double ArmGroup::energy() const {

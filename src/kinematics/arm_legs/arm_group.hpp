@@ -12,9 +12,10 @@
 
 namespace sinew::inline v1 {
 
-/// What acts on the legs, and the gravity of the whole.
+/// What acts beside the wrench on the platform, and the gravity of the whole.
 struct LegsLoads {
-  std::array<double, 3> gravity{}, along{};
+  std::array<double, 3> gravity{}, along{}, following_along{};
+  std::array<double, 6> following{};  ///< on the platform, in its axes
   std::vector<ArmLegsPointLoad> points = {};
 };
 /// At a share of the way from one to another.
@@ -94,7 +95,9 @@ class ArmGroup final : public LimbGroup<Spatial> {
   bool plan();          ///< after `factor_limbs`: false where the whole is singular
   double planned_size() const { return planned_size_; }  ///< shapes as angles, turns of the platform [rad]
   void move_as_planned();
-  int unstable() const;  ///< directions of the whole, after `factor_limbs`; −1 where it is not finite
+  /// Directions of the whole, after `factor_limbs`; −1 where it is not finite. Under loads that have no
+  /// potential they are those of the symmetric part.
+  int unstable() const;
   /// Of an equilibrium, after `factor_limbs`: columns by what is held of every tendon, then by a wrench on
   /// the platform. It needs no finite stiffness. False where the whole is singular.
   bool answers(Matrix& twists, Matrix& by_tendon) const;
@@ -115,9 +118,10 @@ class ArmGroup final : public LimbGroup<Spatial> {
   }
   const LegsLoads& loads() const { return loads_; }
 
-  /// Whether the wrench has a moment, which in base axes has no potential.
-  bool has_potential() const { return wrench_.tail<3>().isZero(0); }
-  double potential() const;  ///< elastic, of weight, of the load's forces and of tendons that stretch [J]
+  bool has_potential() const override;
+  int unstable_by_symmetric_part() const override;
+  /// Elastic, of weight, of forces that keep their direction and of tendons that stretch [J].
+  double potential() const;
   double tension(int feed) const;
   double change(int feed) const;      ///< of its end, > 0: paid out [m]
   double slack(int feed) const;       ///< what it is longer than its way [m]
@@ -154,6 +158,10 @@ class ArmGroup final : public LimbGroup<Spatial> {
     Matrix L, HL;            ///< of held tensions
     Vector y0, r;            ///< −H⁻¹ gradient; what is missing with it
     Matrix D, D_inverse, X;  ///< their compliance; rows by the platform's twist
+    Vector C;                ///< what the compliance is without the backbone's
+    /// What acts on the backbone has a potential. Else H and D are not symmetric, and `negative` is 1 where
+    /// the determinant of H is.
+    bool has_potential = true;
     int negative = 0;
     Vector du;
 
@@ -181,7 +189,19 @@ class ArmGroup final : public LimbGroup<Spatial> {
   Mat<double, 6, 6> curvature(const Leg& leg) const;
   double force_unit(const Leg& leg) const;
   bool factor_compliance(Leg& leg) const;
-  Matrix whole() const;  ///< of all unknown forces and the platform, without dimension
+  /// The symmetric part of a leg's Hessian as its unknown forces feel it.
+  struct EvenPart {
+    Matrix D;
+    int negative = 0;  ///< directions of the Hessian
+    bool ok = false;
+  };
+  EvenPart even_part(const Leg& leg) const;
+  int unstable_with_tip_held(const Leg& leg, const Matrix& D, int negative) const;
+  /// Of the platform's balance by its twist, what turns with it.
+  Mat<double, 6, 6> following_curvature() const;
+  Wrench turning_wrench() const;  ///< of what turns with the platform, base axes
+  /// Of all unknown forces and the platform, without dimension. @param D of every leg, or of none: its own
+  Matrix whole(std::span<const EvenPart> even = {}) const;
   Vector units() const;
   Vector units_of(const Leg& leg) const;
   std::pair<const Leg*, const Tendon*> find(int feed) const;

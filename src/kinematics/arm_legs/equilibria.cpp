@@ -51,7 +51,11 @@ LegsFound refine(const ArmLegs& robot, const LegsProblem& problem, const ArmOpti
       state.report.status = Status::stalled;
     } else if (state.stable = holds(group); !state.stable) {
       state.report.status = Status::unstable;
-      state.report.message = FixedText<240>("the equilibrium does not hold by itself");
+      state.report.message = FixedText<240>(
+          group.has_potential()
+              ? "the equilibrium does not hold by itself"
+              : "whether the equilibrium holds is not known: some of the loads have no potential, and the "
+                "symmetric part of its stiffness is not positive definite");
     }
     if (resolution > 10 * wanted) {
       state.report.status = Status::stalled;

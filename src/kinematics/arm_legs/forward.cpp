@@ -11,6 +11,7 @@
 #include "base/at.hpp"
 #include "kinematics/arm_legs/legs_work.hpp"
 #include "kinematics/load_problem.hpp"
+#include "math/plane_axes.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
@@ -113,6 +114,7 @@ LegsFound grow(ArmGroup& group, const Put& put, bool is_held, const ArmOptions& 
       group.save(last);
       if (found.iterations <= 6) step *= 2;
     } else {
+      all.last = is_found ? Status::unstable : found.status;
       group.restore(last);
       step *= 0.5;
     }
@@ -130,12 +132,13 @@ ArmGroup::Frame between(const ArmGroup::Frame& from, const Vec<double, 6>& twist
           SO3<double>::exp(Vec3<double>(share * twist.tail<3>())).compose(from.R)};
 }
 
-std::string_view words_for(Status status, bool is_held) {
-  if (is_held && status == Status::stalled)
-    return "legs held the platform up to {:.2f} % of the way to the pose, and beyond they do not reach it or "
-           "give way";
+std::string_view words_for(Status status, bool has_potential) {
   switch (status) {
     case Status::stalled:
+      if (!has_potential)
+        return "inputs and loads led to an equilibrium that is known to hold up to {:.2f} % of them, and "
+               "beyond "
+               "to none: some of the loads have no potential, and what is beyond may hold or not";
       return "inputs and loads led to an equilibrium that holds up to {:.2f} % of them, and beyond to none";
     case Status::iteration_limit:
       return "the bound on iterations was met at {:.2f} % of inputs and loads";
@@ -144,6 +147,48 @@ std::string_view words_for(Status status, bool is_held) {
     default:
       return "";
   }
+}
+
+/// A leg that the pose is too far from, in words; or empty.
+std::string out_of_reach(const ArmLegs& robot, const ArmGroup::Frame& pose) {
+  for (std::size_t k = 0; k < robot.legs.size(); ++k) {
+    const ArmLeg& leg = robot.legs[k];
+    const double way = (pose.point(leg.platform_point) - leg.base.p).norm(),
+                 length = leg.arm.length() + leg.strut;
+    if (way > length)
+      return fmt::format(
+          "leg {} is out of reach: from its base to the platform it is {:.4g} m, and it is {:.4g} m "
+          "long",
+          k, way, length);
+  }
+  return {};
+}
+
+/// Why a platform is not held at the pose, and the way out.
+std::string words_of_held(const ArmLegs& robot, const LegsProblem& problem, const LegsFound& found,
+                          double reached) {
+  const std::string far = out_of_reach(robot, *problem.held);
+  if (!far.empty()) return far;
+  if (reached == 1)
+    return "coarse polynomials hold the platform at the pose, and finer ones do not: a leg is pulled or bent "
+           "too "
+           "sharply for them";
+  const char* why =
+      found.last == Status::unstable
+          ? "a leg gives way by itself: bend it by tensions, or lead the platform there by track"
+      : found.last == Status::singular
+          ? "a leg that is straight and does not stretch has no finite stiffness: bend it by tensions"
+          : "no equilibrium was found: lead the platform there by track, or give less load";
+  return fmt::format("legs held the platform up to {:.2f} % of the way to the pose, and beyond {}",
+                     100 * reached, why);
+}
+
+/// From where a search has come to.
+LegsFound walk_after(const LegsFound& before, ArmGroup& group, const LegsProblem& problem,
+                     const ArmOptions& options, const StopToken& stop, double& reached) {
+  LegsFound found = walk_legs(group, problem, options, stop, reached);
+  found.iterations += before.iterations;
+  return found;
 }
 
 /// With the platform free; to where it is to be held it goes from there, since legs at rest are straight and
@@ -157,9 +202,25 @@ LegsFound begin_at_rest(ArmGroup& group, const LegsProblem& problem, const ArmOp
     reached = 0;
     return found;
   }
-  const int spent = found.iterations;
-  found = walk_legs(group, problem, options, stop, reached);
-  found.iterations += spent;
+  return walk_after(found, group, problem, options, stop, reached);
+}
+
+/// Where legs do not bear a free platform under what acts: without it, then under as much as they bear; the
+/// rest comes while the platform is held and goes to its pose. Of a group at rest.
+LegsFound begin_unloaded(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
+                         const StopToken& stop, double& reached) {
+  LegsProblem free = problem;
+  free.held.reset();
+  free.wrench.setZero();
+  const std::vector<TendonCommand> loose(problem.commands.size());
+  group.set_problem(loose, free.wrench, {});
+  LegsFound found = grow_legs(group, options, stop, reached);
+  if (found.status == Status::converged) {
+    found = walk_after(found, group, free, options, stop, reached);
+    if (found.status == Status::converged || found.status == Status::stalled)
+      return walk_after(found, group, problem, options, stop, reached);
+  }
+  reached = 0;
   return found;
 }
 
@@ -227,11 +288,23 @@ void prepare_levels(const ArmOptions& options, const LegsBreaks& breaks, ArmLegs
 LegsProblem::LegsProblem(const ArmLegs& robot, std::span<const TendonCommand> tendons,
                          const ArmLegsLoad& load)
     : commands(tendons.begin(), tendons.end()),
-      loads{load.gravity.value_or(robot.gravity), load.along, load.points} {
+      loads{.gravity = load.gravity.value_or(robot.gravity),
+            .along = load.along,
+            .following_along = load.following_along,
+            .following = load.following,
+            .points = load.points} {
   std::copy(load.wrench.begin(), load.wrench.end(), wrench.begin());
 }
 
 namespace {
+
+/// In base axes, and in those of a leg in the plane, whose y axis is square to it.
+bool leaves_plane(const std::array<double, 6>& wrench) {
+  return std::ranges::any_of(axes_out_of_plane, [&](std::size_t k) { return wrench[k] != 0; });
+}
+bool leaves_own_plane(const std::array<double, 6>& wrench) {
+  return wrench[1] != 0 || wrench[3] != 0 || wrench[5] != 0;
+}
 
 /// Of loads on legs.
 Report loads_misfit(const ArmLegs& robot, const ArmLegsLoad& load) {
@@ -249,11 +322,6 @@ Report loads_misfit(const ArmLegs& robot, const ArmLegsLoad& load) {
           fmt::format("load {} is at {} m of leg {}, which is {} m long", i, point.place, point.leg, length));
     if (!std::ranges::all_of(point.wrench, [](double x) { return std::isfinite(x); }))
       return bad(fmt::format("load {} is not finite", i));
-    if (std::ranges::any_of(std::span(point.wrench).last(3), [](double x) { return x != 0; }))
-      return {Status::unsupported, 0, 0,
-              FixedText<240>(
-                  fmt::format("load {} has a moment{}: give forces alone in this version", i,
-                              robot.is_planar ? "" : ", which has no potential, by which legs balance"))};
   }
   return {Status::converged, 0, 0, {}};
 }
@@ -276,14 +344,16 @@ Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands
   }
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::ranges::all_of(load.wrench, finite) || !std::ranges::all_of(load.along, finite) ||
+      !std::ranges::all_of(load.following, finite) || !std::ranges::all_of(load.following_along, finite) ||
       (load.gravity && !std::ranges::all_of(*load.gravity, finite)))
     return bad("a load is not finite");
   if (const Report misfit = loads_misfit(robot, load); !misfit.ok()) return misfit;
   if (robot.is_planar) {
     const auto& gravity = load.gravity.value_or(robot.gravity);
-    if (load.wrench[2] != 0 || load.wrench[3] != 0 || load.wrench[4] != 0 || gravity[2] != 0 ||
-        load.along[2] != 0 ||
-        std::ranges::any_of(load.points, [](const auto& point) { return point.wrench[2] != 0; }))
+    if (leaves_plane(load.wrench) || leaves_plane(load.following) || gravity[2] != 0 || load.along[2] != 0 ||
+        load.following_along[1] != 0 || std::ranges::any_of(load.points, [](const auto& point) {
+          return point.following ? leaves_own_plane(point.wrench) : leaves_plane(point.wrench);
+        }))
       return bad("a load acts out of the plane, in which alone the robot moves: leave that part of it out");
   }
   if (options.balance != ArmBalance::energy)
@@ -450,6 +520,12 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
     level = 0;
     group = &ready(0);
     found = begin_at_rest(*group, problem, options, work.stop, state.reached);
+    if (is_held && found.status == Status::stalled && state.reached == 0) {
+      const LegsFound before = found;
+      group = &ready(0);
+      found = begin_unloaded(*group, problem, options, work.stop, state.reached);
+      found.iterations += before.iterations;
+    }
     found.iterations += spent;
   }
   impl.level = static_cast<int>(level);
@@ -488,7 +564,10 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
     state.report.message = FixedText<240>("what coarser polynomials found does not hold by finer ones");
   else if (found.status != Status::converged)
     state.report.message =
-        FixedText<240>(fmt::format(fmt::runtime(words_for(found.status, is_held)), 100 * state.reached));
+        FixedText<240>(is_held && found.status == Status::stalled
+                           ? words_of_held(robot, problem, found, state.reached)
+                           : fmt::format(fmt::runtime(words_for(found.status, group->has_potential())),
+                                         100 * state.reached));
   else if (began_anew)
     state.report.message = FixedText<240>(
         "from the last equilibrium none that holds was found on the way here; this is what the rest grows "

@@ -27,13 +27,42 @@ class PulledLegs final : public PulledBody {
     return work_.impl().has_last() ? work_.impl().state.tensions : std::vector<double>();
   }
   void keep() override { walk_.keep(); }
-  void bring_back() { walk_.bring_back(); }
+  void bring_back() override { walk_.bring_back(); }
 
  private:
   const ArmLegs& robot_;
   const ArmLegsLoad& load_;
   ArmLegsWorkspace& work_;
   LegsWalk walk_;
+};
+
+class RefinedLegs final : public RefinedSearch {
+ public:
+  RefinedLegs(const ArmLegs& robot, const ArmLegsLoad& load, const ArmOptions& options,
+              ArmLegsWorkspace& work)
+      : robot_(robot),
+        load_(load),
+        options_(options),
+        work_(work) {}
+  std::unique_ptr<PulledBody> body(bool is_first) override {
+    return std::make_unique<PulledLegs>(robot_, load_, options_, work_,
+                                        is_first ? LegsEnd::coarse : LegsEnd::anywhere);
+  }
+  Report refine(const std::vector<double>& tensions) override {
+    ArmOptions last = options_;
+    last.from_last = true;
+    solve_legs(robot_, {robot_, as_commands(tensions), load_}, last, work_);
+    return work_.impl().state.report;
+  }
+  Report refine_nearest(PulledBody&, const std::vector<double>&) override {
+    return work_.impl().state.report;
+  }
+
+ private:
+  const ArmLegs& robot_;
+  const ArmLegsLoad& load_;
+  const ArmOptions& options_;
+  ArmLegsWorkspace& work_;
 };
 
 /// In the plane bending about y alone counts.
@@ -79,50 +108,17 @@ ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target, c
   for (const ArmLeg& leg : robot.legs)
     if (!leg.arm.tendons.empty()) usual = std::min(usual, usual_tension(bending_as_it_may(robot, leg)));
   TensionSearch search{.tendons = loose.size(),
+                       .what = "platform",
+                       .whose = "the longest leg's",
                        .length = length,
                        .usual = usual,
                        .most = options.most_tension > 0 ? options.most_tension : 1e3 * usual,
+                       .asked = options.most_tension,
                        .precision = options.precision,
                        .starts = options.starts,
                        .from_last = options.arm.from_last,
                        .most_work = 3000};
-  // At the coarsest polynomials, then at those that the end needs.
-  int iterations = 0;
-  for (int round = 0;; ++round) {
-    PulledLegs body(robot, load, options.arm, work, round == 0 ? LegsEnd::coarse : LegsEnd::anywhere);
-    const FoundTensions found = search_tensions(target, search, body);
-    iterations += found.report.iterations;
-    const Status status = found.report.status;
-    if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
-      return answer(found.report);
-    if (!(found.report.residual < 1e300)) {
-      answer(state.report);
-      best.report.iterations = iterations;
-      if (best.report.ok())  // of another start
-        best.report = {Status::stalled, iterations, 0,
-                       FixedText<240>("no equilibrium was found from which to begin")};
-      return best;
-    }
-    const LegsProblem there(robot, as_commands(found.tensions), load);
-    ArmOptions last = options.arm;
-    last.from_last = true;
-    body.bring_back();
-    const bool is_near = found.report.residual <= search.precision;
-    if (is_near) solve_legs(robot, there, last, work);
-    answer(state.report);
-    best.report.iterations = iterations;
-    best.report.residual = off_target(target, state.platform, length);
-    if (!state.report.ok() || !is_near || best.report.residual <= options.precision || round == 3) break;
-    search.from_last = true;
-    search.starts = 1;
-    search.most_work = 1000;
-  }
-  if (best.report.ok() && best.report.residual > 10 * options.precision) {
-    best.report.status = Status::unreachable;
-    best.report.message =
-        unreachable_words("platform", "the longest leg's", options.most_tension, best.report.residual);
-  }
-  return best;
+  return answer(RefinedLegs(robot, load, options.arm, work).run(target, search));
 }
 
 }  // namespace sinew::inline v1

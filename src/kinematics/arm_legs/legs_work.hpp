@@ -40,6 +40,8 @@ struct LegsFound {
   Status status = Status::converged;
   int iterations = 0;
   double residual = 0;
+  Status last =
+      Status::converged;  ///< of the last step that was tried, where all of them together are stalled
 };
 
 /// What does not fit the robot, in words; empty if all does. The status is `bad_input`, but `unsupported` of

@@ -3,6 +3,7 @@
 
 #include "kinematics/arm_legs/legs_work.hpp"
 #include "kinematics/arms/sense_search.hpp"
+#include "math/plane_axes.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
@@ -88,14 +89,15 @@ ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& mea
   }
   double usual = 0;
   for (const ArmLeg& leg : robot.legs) usual += usual_force(leg.arm);
-  WrenchSearch search{.first = load.wrench,
-                      .unknowns = unknowns,
-                      .components = is_planar ? std::array<std::size_t, 6>{0, 1, 5, 0, 0, 0}
-                                              : std::array<std::size_t, 6>{0, 1, 2, 3, 4, 5},
-                      .length = legs_size(robot),
-                      .usual = usual,
-                      .from_last = options.from_last,
-                      .most_work = 3000};
+  WrenchSearch search{
+      .first = load.wrench,
+      .unknowns = unknowns,
+      .components = is_planar ? std::array<std::size_t, 6>{plane_axes[0], plane_axes[1], plane_axes[2]}
+                              : std::array<std::size_t, 6>{0, 1, 2, 3, 4, 5},
+      .length = legs_size(robot),
+      .usual = usual,
+      .from_last = options.from_last,
+      .most_work = 3000};
   ArmOptions each = options;
   FoundWrench found;
   // At the polynomials that the beginning needs; again where the end needs finer ones.

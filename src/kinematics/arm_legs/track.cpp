@@ -38,6 +38,8 @@ class WayTo {
     LegsLoads at_share = mix(loads_, to, share);
     load.gravity = at_share.gravity;
     load.along = at_share.along;
+    load.following = at_share.following;
+    load.following_along = at_share.following_along;
     load.points = std::move(at_share.points);
     return load;
   }

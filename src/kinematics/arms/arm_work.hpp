@@ -39,6 +39,8 @@ struct ArmWorkspace::Impl : Rung {
 
   std::vector<TendonCommand> commands;  ///< of the last equilibrium
   bool balances = false;                ///< whether it was found
+  bool may_grow = true;                 ///< see strain::RelaxOptions
+  bool grew = false;                    ///< a search since this was set to false
   ArmState state;
 
   std::shared_ptr<ArmPath> path;  ///< of arm_follow; none: it begins anew

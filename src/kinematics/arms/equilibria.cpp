@@ -42,7 +42,10 @@ std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const Tendo
              other.state.tip.R.compose(state.tip.R.inverse()).log().norm() < 1e-4;
     });
   };
+  work.impl().grew = false;
   for (int start = 0; start < starts; ++start) {
+    // What grows from nothing is the same from wherever a search began.
+    work.impl().may_grow = !work.impl().grew;
     const ArmState* state = &arm_forward(arm, commands, load, each, work);
     if (state->report.status == Status::bad_input || state->report.status == Status::unsupported ||
         state->report.status == Status::stopped) {
@@ -68,6 +71,7 @@ std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const Tendo
               size * normal(gen) / std::sqrt(static_cast<double>(rod.model().pieces.size())) / (1 + 3 * a);
     each.from_last = true;
   }
+  work.impl().may_grow = true;
   if (found.size() > 1 && !found.front().state.report.ok()) found.erase(found.begin());
   std::ranges::stable_sort(found, {},
                            [&](const ArmEquilibrium& one) { return whole_potential(one.state, commands); });

@@ -358,6 +358,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   strain::RelaxOptions relax;
   relax.max_iterations = options.max_iterations;
   relax.tolerance = options.tolerance;
+  relax.may_grow = impl.may_grow;
   relax.stop = [&work] { return work.stop.stop_requested(); };
   const bool by_energy = options.balance == ArmBalance::energy;
   ResolutionLadder ladder(options, arm.length(), impl);
@@ -376,7 +377,10 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   first.from = first.level;
   impl.balances = false;
   const strain::Relaxed found = climb(ladder, first, rods, [&](LoadedRod& asked) {
-    return by_energy ? asked.relax(relax) : relax_published(arm, commands, options, relax, warm, asked);
+    if (!by_energy) return relax_published(arm, commands, options, relax, warm, asked);
+    const strain::Relaxed one = asked.relax(relax);
+    impl.grew = impl.grew || one.grew;
+    return one;
   });
   state.resolution = impl.told;
   impl.balances = found.status == Status::converged;

@@ -30,8 +30,7 @@ class PulledArm final : public PulledBody {
     kept_level_ = work_.impl().level;
     kept_ = work_.impl().rod().work().y;
   }
-  /// The workspace begins again from what was kept.
-  void bring_back() {
+  void bring_back() override {
     if (kept_level_ < 0) return;
     work_.impl().level = kept_level_;
     work_.impl().rod().work().y = kept_;
@@ -44,6 +43,36 @@ class PulledArm final : public PulledBody {
   ArmWorkspace& work_;
   int kept_level_ = -1;
   std::vector<double> kept_;  ///< coordinates of the arm's strain
+};
+
+class RefinedArm final : public RefinedSearch {
+ public:
+  RefinedArm(const Arm& arm, const ArmLoad& load, const ArmOptions& options, ArmWorkspace& work)
+      : arm_(arm),
+        load_(load),
+        options_(options),
+        work_(work) {}
+  std::unique_ptr<PulledBody> body(bool is_first) override {
+    ArmOptions options = options_;
+    if (is_first) options.accuracy = 0;  // the model's usual polynomials
+    return std::make_unique<PulledArm>(arm_, load_, options, work_);
+  }
+  Report refine(const std::vector<double>& tensions) override {
+    return PulledArm(arm_, load_, options_, work_).pull(tensions, true);
+  }
+  Report refine_nearest(PulledBody& body, const std::vector<double>& tensions) override {
+    if (const Report report = refine(tensions); report.is_solved()) return report;
+    body.bring_back();
+    Report report = body.pull(tensions, true);
+    report.message = FixedText<240>(", by coarse polynomials that finer ones do not confirm");
+    return report;
+  }
+
+ private:
+  const Arm& arm_;
+  const ArmLoad& load_;
+  const ArmOptions& options_;
+  ArmWorkspace& work_;
 };
 
 }  // namespace
@@ -68,41 +97,12 @@ ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const ArmLoad& l
                        .length = length,
                        .usual = usual,
                        .most = options.most_tension > 0 ? options.most_tension : 1e3 * usual,
+                       .asked = options.most_tension,
                        .precision = options.precision,
                        .starts = options.starts,
                        .from_last = options.arm.from_last,
                        .most_work = 10000};
-  // The model's usual polynomials find the way; those that the accuracy needs only its end.
-  ArmOptions coarse = options.arm;
-  coarse.accuracy = 0;
-  int iterations = 0;
-  for (int round = 0; round < 4; ++round) {
-    PulledArm body(arm, load, round == 0 ? coarse : options.arm, work);
-    const FoundTensions found = search_tensions(target, search, body);
-    iterations += found.report.iterations;
-    const Status status = found.report.status;
-    if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
-      return answer(found.report);
-    if (!(found.report.residual < 1e300))
-      return answer(
-          {Status::stalled, iterations, 0, FixedText<240>("no equilibrium was found to begin from")});
-    // the workspace is left in what is answered
-    body.bring_back();
-    PulledArm end(arm, load, options.arm, work);
-    answer(end.pull(found.tensions, true));
-    best.report.iterations = iterations;
-    if (!best.report.is_solved()) return best;
-    best.report.residual = off_target(target, best.state.tip, length);
-    if (found.report.residual > options.precision || best.report.residual <= options.precision) break;
-    search.from_last = true;
-    search.starts = 1;
-    search.most_work = 1000;
-  }
-  if (best.report.residual > 10 * options.precision) {
-    best.report.status = Status::unreachable;
-    best.report.message = unreachable_words("tip", "the arm's", options.most_tension, best.report.residual);
-  }
-  return best;
+  return answer(RefinedArm(arm, load, options.arm, work).run(target, search));
 }
 
 }  // namespace sinew::inline v1

@@ -212,11 +212,44 @@ double off_target(const ArmTarget& target, const SE3<double>& tip, double length
   return largest(tip_off(target, tip, length));
 }
 
-FixedText<240> unreachable_words(std::string_view what, std::string_view by, double most_tension,
-                                 double off) {
-  return FixedText<240>(fmt::format(
-      "no tensions{} were found that take the {} there; the nearest is off by {:.2e} of {} length or rad",
-      most_tension > 0 ? fmt::format(" up to {:.4g} N", most_tension) : std::string(), what, off, by));
+Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
+  int iterations = 0;
+  Report report;
+  FixedText<240> of_nearest;
+  for (int round = 0; round < 4; ++round) {
+    const std::unique_ptr<PulledBody> searched = body(round == 0);
+    const FoundTensions found = search_tensions(target, search, *searched);
+    iterations += found.report.iterations;
+    const Status status = found.report.status;
+    if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
+      return found.report;
+    if (!(found.report.residual < 1e300))
+      return {
+          Status::stalled, iterations, 0,
+          FixedText<240>(fmt::format(
+              "the search for tensions has nowhere to begin: of {} first tensions, none at all and some of "
+              "each, none holds the {} under these loads; give a start, where others hold it, or less load",
+              search.starts, search.what))};
+    searched->bring_back();
+    const bool is_near = found.report.residual <= search.precision;
+    report = is_near ? refine(found.tensions) : refine_nearest(*searched, found.tensions);
+    report.iterations = iterations;
+    if (!report.is_solved()) return report;
+    if (!is_near) std::swap(of_nearest, report.message);
+    report.residual = off_target(target, searched->tip(), search.length);
+    if (!is_near || report.residual <= search.precision) break;
+    search.from_last = true;
+    search.starts = 1;
+    search.most_work = 1000;
+  }
+  if (report.residual > 10 * search.precision) {
+    const std::string up_to = search.asked > 0 ? fmt::format(" up to {:.4g} N", search.asked) : std::string();
+    report.status = Status::unreachable;
+    report.message = FixedText<240>(fmt::format(
+        "no tensions{} were found that take the {} there; the nearest is off by {:.2e} of {} length or rad{}",
+        up_to, search.what, report.residual, search.whose, of_nearest.view()));
+  }
+  return report;
 }
 
 FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& search, PulledBody& body) {
@@ -295,6 +328,11 @@ FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& sear
       } else {
         radius = 0.4 * std::min(radius, longest);
         report = pull(tensions, true);
+        if (!report.is_solved()) {  // the way back gives way, too
+          report = pull(tensions, false);
+          if (!report.is_solved()) break;
+          error = error_at();
+        }
         if (radius < 1e-8 * usual) break;
         if (least && radius < 1e-3 * usual) way = Way::exact, radius = usual;
       }

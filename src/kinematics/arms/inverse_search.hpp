@@ -1,6 +1,8 @@
 /// @file inverse_search.hpp
 /// The search for tensions that take a tip, or a platform, to a target, whatever they pull at.
 #pragma once
+#include <memory>
+#include <string_view>
 #include <vector>
 
 #include "sinew/kinematics/arm.hpp"
@@ -23,14 +25,18 @@ class PulledBody {
   /// Tensions of its last equilibrium [N]; empty where there is none.
   virtual std::vector<double> last_tensions() const = 0;
   /// This equilibrium may be what is answered.
-  virtual void keep() {}
+  virtual void keep() = 0;
+  /// It is what the next question to the body begins from.
+  virtual void bring_back() = 0;
 };
 
 struct TensionSearch {
   std::size_t tendons = 0;
-  double length = 0;  ///< by which places count [m]
-  double usual = 0;   ///< tension that bends by about a radian [N]
-  double most = 0;    ///< [N]
+  std::string_view what = "tip", whose = "the arm's";  ///< what is taken to the target; whose length counts
+  double length = 0;                                   ///< by which places count [m]
+  double usual = 0;                                    ///< tension that bends by about a radian [N]
+  double most = 0;                                     ///< [N]
+  double asked = 0;                                    ///< bound of the question [N]; 0: none
   double precision = 0;
   int starts = 0;
   bool from_last = false;
@@ -44,6 +50,26 @@ struct FoundTensions {
 /// Tensions of a target with the least sum of squares, or those that come nearest to it.
 FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& search, PulledBody& body);
 
+/// A search at polynomials that find the way, then again from its end at those that its end needs.
+class RefinedSearch {
+ public:
+  RefinedSearch() = default;
+  RefinedSearch(const RefinedSearch&) = delete;
+  RefinedSearch& operator=(const RefinedSearch&) = delete;
+  virtual ~RefinedSearch() = default;
+
+  /// What is searched: at the polynomials that find the way, or at those that the last answer has.
+  virtual std::unique_ptr<PulledBody> body(bool is_first) = 0;
+  /// From the body's equilibrium, which was brought back: the answer, at polynomials that are fine enough.
+  virtual Report refine(const std::vector<double>& tensions) = 0;
+  /// The same where it is off the target anyway: as fine as they can be; what is to be said of that in the
+  /// message.
+  virtual Report refine_nearest(PulledBody& body, const std::vector<double>& tensions) = 0;
+
+  /// Its residual is what the body's tip is off.
+  Report run(const ArmTarget& target, TensionSearch search);
+};
+
 /// What the tip is off: place over the length, angle [rad], the largest.
 double off_target(const ArmTarget& target, const SE3<double>& tip, double length);
 /// What is wrong with the target, or empty.
@@ -51,7 +77,5 @@ std::string_view target_misfit(const ArmTarget& target);
 /// The tension of a tendon that bends its section by about one radian: the least of all [N].
 double usual_tension(const Arm& arm);
 std::vector<TendonCommand> as_commands(const std::vector<double>& tensions);
-/// What is said of a target that was not reached.
-FixedText<240> unreachable_words(std::string_view what, std::string_view by, double most_tension, double off);
 
 }  // namespace sinew::inline v1

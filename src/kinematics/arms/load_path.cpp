@@ -12,7 +12,7 @@ namespace {
 constexpr double buckled = 1e-6;   ///< a margin that counts as none
 constexpr double shortest = 1e-9;  ///< a step over what was reached that is not worth another
 constexpr int most_steps = 2000;
-constexpr int most_iterations = 20000;  ///< of all steps
+constexpr int most_iterations = 20000;  ///< of all steps, and of ways back
 constexpr int most_in_a_step = 60;      ///< iterations: a shorter step pays, then
 
 /// An equilibrium on the way.
@@ -59,7 +59,9 @@ class LoadWalk {
 
   const ArmState& solve(double factor) {
     for (std::size_t i = 0; i < 6; ++i) load_.wrench[i] = start_[i] + factor * direction_[i];
-    return arm_forward(arm_, commands_, load_, options_, work_);
+    const ArmState& state = arm_forward(arm_, commands_, load_, options_, work_);
+    iterations_ += state.report.iterations;
+    return state;
   }
 
   /// The equilibrium that the workspace holds.
@@ -87,6 +89,11 @@ class LoadWalk {
     const double a = 1 / (before_.speed * before_.speed), b = 1 / (last_.speed * last_.speed);
     return (last_.load - before_.load) * b / (a - b);
   }
+  /// Iterations that may be spent: fewer of a rod of many elements, each of which takes longer.
+  int budget() const {
+    const auto elements = static_cast<int>(work_.impl().rod().model().elements.size());
+    return std::clamp(400000 / elements, 1500, most_iterations);
+  }
   /// How far there is nothing to fear.
   double room() const {
     constexpr double any = std::numeric_limits<double>::infinity();
@@ -110,14 +117,14 @@ class LoadWalk {
     const std::vector<double> held = work_.impl().rod().work().y;
     const ArmState& state = solve(last_.load + step);
     ++path_.steps;
-    iterations_ += state.report.iterations;
     if (state.report.status == Status::stopped) return end_at(held, LoadEnd::stopped);
     const double moved = (state.tip.p - last_.tip).norm() / arm_.length();
     const bool follows = state.report.ok() && moved <= 4 * step * last_.speed + 1e-4 && moved < 0.1;
-    const bool is_spent = path_.steps >= most_steps || iterations_ >= most_iterations;
+    const bool is_spent = path_.steps >= most_steps || iterations_ >= budget();
     if (!follows) {
       if (is_spent) return end_at(held, LoadEnd::iterations);
       take_back(held);
+      growth_ = 1.1;
       if (step > shortest * std::max(last_.load, first_step_)) return 0.5 * step;
       options_.max_iterations = full_iterations_;
       const Status status = solve(last_.load + step).report.status;
@@ -131,7 +138,9 @@ class LoadWalk {
     path_.load = last_.load, path_.margin = last_.margin, path_.state = work_.impl().state;
     if (!has_potential() && last_.margin < 0 && path_.definite_until < 0) path_.definite_until = before_.load;
     if (is_spent) path_.end = LoadEnd::iterations;
-    return moved < 0.03 ? 1.6 * step : step;
+    const double next = moved < 0.03 ? growth_ * step : step;
+    growth_ = std::min(1.6, 1.06 * growth_);
+    return next;
   }
 
   void take_back(const std::vector<double>& held) {
@@ -154,6 +163,7 @@ class LoadWalk {
   ArmLoadPath path_;
   Place first_, before_, last_;
   double first_step_ = 0;
+  double growth_ = 1.6;  ///< of steps; less after one that failed, which costs as much as many
   int iterations_ = 0, full_iterations_ = 0;
 };
 

@@ -10,6 +10,7 @@
 
 #include "kinematics/chains/arcs.hpp"
 #include "kinematics/chains/path.hpp"
+#include "math/plane_axes.hpp"
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
@@ -31,7 +32,7 @@ inline ChainWork& solver_memory(Workspace& work) {
 template <class Space>
 constexpr std::array<Eigen::Index, static_cast<std::size_t>(Space::dof)> axes_of() {
   if constexpr (Space::dimension == 2)
-    return {0, 1, 5};
+    return {plane_axes[0], plane_axes[1], plane_axes[2]};
   else
     return {0, 1, 2, 3, 4, 5};
 }

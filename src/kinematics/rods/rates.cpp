@@ -8,6 +8,7 @@
 #include "base/limits.hpp"
 #include "kinematics/rods/verdict.hpp"
 #include "math/linalg.hpp"
+#include "math/plane_axes.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -62,9 +63,6 @@ struct RateEquations {
   }
 };
 
-/// Rows of x, y and the turn about z; the others are 0.
-constexpr std::array<std::size_t, 3> plane_rows{0, 1, 5};
-
 Report rates_in_plane(const RodAnalysis& analysis, Numbers twist, std::span<double> rates) {
   const std::size_t inputs = rates.size();
   const auto part = [&](std::size_t row) {
@@ -77,15 +75,15 @@ Report rates_in_plane(const RodAnalysis& analysis, Numbers twist, std::span<doub
   equations.forward = 2;
   equations.turning = 1;
   equations.inputs = static_cast<int>(inputs);
-  for (std::size_t i = 0; i < plane_rows.size(); ++i) {
-    const std::size_t row = plane_rows[i];
+  for (std::size_t i = 0; i < plane_axes.size(); ++i) {
+    const std::size_t row = plane_axes[i];
     std::copy_n(&analysis.feed[row * inputs], inputs, equations.row(static_cast<int>(i)));
-    for (const std::size_t column : plane_rows)
+    for (const std::size_t column : plane_axes)
       equations.b[i] += analysis.stiffness[6 * row + column] * part(column);
   }
   if (equations.solve_for(rates)) return {};
   return refused_rates(Status::singular,
-                       inputs < plane_rows.size()
+                       inputs < plane_axes.size()
                            ? "the platform cannot move so: it has fewer inputs than the plane has freedoms"
                            : "type I: no rates of the inputs move the platform so; what they do depends on "
                              "each other");

@@ -10,6 +10,7 @@
 #include "io/read_pose.hpp"
 #include "io/reader.hpp"
 #include "leg/space.hpp"
+#include "math/plane_axes.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/sampler.hpp"
 #include "robot/pose.hpp"
@@ -29,12 +30,8 @@ std::vector<std::size_t> tendon_counts_of(const ArmLegs& robot) {
   return counts;
 }
 
-constexpr std::string_view not_yet = "is not available of legs of sections in this version; leave it out",
-                           no_potential =
-                               "turns with the robot and so has no potential, by which legs of sections "
-                               "balance in this version; give loads that keep their direction";
 constexpr Lack lacking[] = {
-    {"following", no_potential}, {"distributed_following", no_potential}, {"balance", not_yet}};
+    {"balance", "is not available of legs of sections in this version; leave it out"}};
 
 /// Numbers of a robot in space, or of one in the plane those that it has.
 /// @{
@@ -44,8 +41,7 @@ AnyPose pose_of(const ArmLegs& robot, const SE3<double>& pose) {
 }
 std::span<const std::size_t> freedoms_of(const ArmLegs& robot) {
   static constexpr std::array<std::size_t, 6> all{0, 1, 2, 3, 4, 5};
-  static constexpr std::array<std::size_t, 3> flat{0, 1, 5};
-  return robot.is_planar ? std::span<const std::size_t>(flat) : std::span<const std::size_t>(all);
+  return robot.is_planar ? std::span<const std::size_t>(plane_axes) : std::span<const std::size_t>(all);
 }
 Value wrench_value(const ArmLegs& robot, const std::array<double, 6>& wrench) {
   std::vector<double> numbers;
@@ -167,22 +163,22 @@ void check_plane(const ArmLegs& robot, const Reader& list, double z) {
               "write 0");
 }
 
+/// In the plane an axis along a backbone is y to its reader, as in the papers, and z to the rod: of the rod's
+/// third axis, square to the plane, whether it is that of the base or points the other way.
+double side_of_plane(const ArmLeg& leg) { return leg.base.rotate(Vec3<double>(0, 1, 0)).z() > 0 ? 1 : -1; }
+
 ArmLegsPointLoad read_legs_point(const ArmLegs& robot, Reader& load) {
   ArmLegsPointLoad point;
   const int last = static_cast<int>(robot.legs.size()) - 1,
             leg = load.required("leg", "on which the load acts, from 0").integer(Range::between(0, last));
   point.leg = static_cast<std::size_t>(std::clamp(leg, 0, last));
   point.place = read_place_along(load, robot.legs[point.leg].arm.length());
-  const Reader wrench = load.required("wrench", "force there, and a moment of 0");
-  point.wrench = read_wrench_of(robot, wrench);
-  if (std::ranges::any_of(std::span(point.wrench).last(3), [](double moment) { return moment != 0; }))
-    wrench.fail(
-        "not_available",
-        robot.is_planar
-            ? "moments on legs of sections are not available in this version; write 0"
-            : "its moment has no potential, by which legs of sections balance in this version; write 0");
-  if (const auto following = load.optional("following"); following && following->boolean())
-    following->fail("not_available", no_potential);
+  point.wrench = read_wrench_of(robot, load.required("wrench", "force and moment there"));
+  if (const auto following = load.optional("following")) point.following = following->boolean();
+  if (robot.is_planar && point.following) {
+    const auto [x, y, z, mx, my, m] = point.wrench;
+    point.wrench = {x, 0, y, 0, m * side_of_plane(robot.legs[point.leg]), 0};
+  }
   load.close();
   return point;
 }
@@ -195,6 +191,12 @@ ArmLegsLoad read_legs_load(const ArmLegs& robot, Reader& place, ArmLegsLoad load
   if (const auto along = place.optional("distributed")) {
     load.along = read_along(*along);
     check_plane(robot, *along, load.along[2]);
+  }
+  if (const auto following = place.optional("following")) load.following = read_wrench_of(robot, *following);
+  if (const auto along = place.optional("distributed_following")) {
+    load.following_along = read_along(*along);
+    check_plane(robot, *along, load.following_along[2]);
+    if (robot.is_planar) load.following_along = {load.following_along[0], 0, load.following_along[1]};
   }
   if (const auto points = place.optional("loads")) {
     load.points.clear();
@@ -386,8 +388,6 @@ std::vector<ArmLegsStep> read_legs_points(Context& context, const ArmLegs& robot
     } else if (!has_inputs && path.empty()) {
       point.required("tensions", "of the first point; or changes, or a pose");
     }
-    for (const char* key : {"following", "distributed_following"})
-      if (const auto asked = point.optional(key)) asked->fail("not_available", no_potential);
     step.load = read_legs_load(robot, point, load);
     point.close();
     path.push_back(std::move(step));

@@ -127,10 +127,10 @@ return std::array{
     Field{"tolerance", quantity, length, {.diagram = of_sections}, "of a tendon before it counts as slack or too short; default the file's"},
     Field{"envelope", word, number, {.diagram = of_sections}, "bends that a section is allowed: square, disc or actuator; default its limit", envelopes},
 
-    Field{"following", FieldShape::wrench, force, of_arm_paths, "force and moment on an arm's tip in its own axes, with which they turn"},
+    Field{"following", FieldShape::wrench, force, of_arm_paths, "force and moment on an arm's tip, or on the platform on legs of sections, in its own axes, with which they turn"},
     Field{"distributed", point, number, of_arm_paths, "force on all of an arm's backbone, or on those of all legs of sections, in base axes [N/m]"},
-    Field{"distributed_following", point, number, of_arm_paths, "the same in the backbone's own axes [N/m]"},
-    Field{"loads", point_loads, number, of_arm_paths, "on an arm's backbone: a list of place, from the base along it, wrench and, where it turns with the place, following; on legs of sections of leg, from 0, place and wrench, whose moment is 0"},
+    Field{"distributed_following", point, number, of_arm_paths, "the same in the backbone's own axes [N/m]; in the plane x to its right and y along it"},
+    Field{"loads", point_loads, number, of_arm_paths, "on an arm's backbone: a list of place, from the base along it, wrench and, where it turns with the place, following; on legs of sections with the leg, from 0"},
     Field{"balance", word, number, of_arm_paths, "how an arm's equilibrium is written: energy (default), or as published models have it: projected, collocated, closed_form; a path knows energy alone", balances},
     Field{"order", whole, count, of_arm_paths, "of the polynomials of an arm's strain; default as `accuracy` needs"},
     Field{"elements", whole, count, of_arm_paths, "of each section (rod) or between two discs (subsegment_rod), joints between two discs (prb)"},

@@ -131,6 +131,14 @@ class LimbGroup {
   /// @{
   /// Unstable directions of a limb by itself, its tip held.
   virtual std::array<int, 2> unstable_with_tip_held(int limb) const = 0;
+  /// Whether all that acts has a potential, without which the stiffness is not symmetric.
+  virtual bool has_potential() const {
+    constexpr int moments = dof - Space::dimension;
+    return Space::dimension == 2 || wrench().template tail<moments>().isZero(0);
+  }
+  /// Where limbs themselves bear loads without a potential, the directions of the whole in which the
+  /// symmetric part of the second variation falls; else −1.
+  virtual int unstable_by_symmetric_part() const { return -1; }
   virtual double energy() const = 0;  ///< elastic, of all limbs [J]
   /// @}
 

@@ -26,7 +26,8 @@ LimbSigns signs_of(const LimbGroup<Space>& group, OwnOf&& own_of) {
     signs.own += in_plane + aside;
   }
   signs.is_odd = group.factors().has_negative_determinant() != (signs.own % 2 == 1);
-  signs.unstable = signs.own + count_negative_eigenvalues(group.stiffness());
+  const int even = group.unstable_by_symmetric_part();
+  signs.unstable = even >= 0 ? even : signs.own + count_negative_eigenvalues(group.stiffness());
   return signs;
 }
 template <class Space>
