@@ -1,7 +1,7 @@
 /// @file questions.hpp
-/// What kinematics/equilibrium.hpp and equilibrium_curve.hpp ask, of a robot by the model prb. The equilibrium
-/// that was found stays in the workspace. A robot in the plane is in the plane z = 0 of space, with wrenches
-/// in it.
+/// What kinematics/equilibrium.hpp and equilibrium_curve.hpp ask, of a robot by the model prb. The
+/// equilibrium that was found stays in the workspace. A robot in the plane is in the plane z = 0 of space,
+/// with wrenches in it.
 #pragma once
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
