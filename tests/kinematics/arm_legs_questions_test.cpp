@@ -2,13 +2,18 @@
 /// tensions, paths. Each is put against forward, which tests of its own put against arms alone.
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <thread>
+#include <thread>
 
 #include "tripods.hpp"
 #include "uniform.hpp"
@@ -256,6 +261,39 @@ TEST(ArmLegsHold, WhyAPlatformIsNotHeldIsSaid) {
                                      says({{0, 0, 0.18}, {}}, much, ArmModel::cc)}) {
     EXPECT_NE(message.find("of the way to the pose"), std::string::npos) << message;
     EXPECT_NE(message.find(": "), std::string::npos) << message;
+  }
+}
+
+/// Loads that follow are named where not even the first of them is borne.
+TEST(ArmLegsForward, LoadsWithoutAPotentialAreNamedAtTheBeginning) {
+  const ArmLegs robot = tripod(false);
+  ArmLegsWorkspace work(robot);
+  ArmLegsLoad load;
+  load.following_along = {1e5, 0, -1e6};
+  ArmOptions options;
+  options.max_iterations = 200;
+  const Report report = arm_legs_forward(robot, std::vector<TendonCommand>(18), load, options, work).report;
+  ASSERT_EQ(report.status, Status::stalled) << to_string(report);
+  EXPECT_NE(report.message.view().find("no potential"), std::string_view::npos) << report.message.view();
+}
+
+/// A search that is stopped says so, wherever it is.
+TEST(ArmLegsInverse, StopsWhereverItIs) {
+  const ArmLegs robot = tripod(false);
+  ArmTarget far;
+  far.position = {0.5, 0, 0.1};
+  for (int wait = 0; wait < 60; wait += 3) {
+    ArmLegsWorkspace work(robot);
+    std::atomic<bool> stop = false;
+    work.stop = StopToken(stop);
+    std::thread stopper([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(wait));
+      stop = true;
+    });
+    const Report report = arm_legs_inverse(robot, far, {}, {}, work).report;
+    const bool had_ended = !stop;
+    stopper.join();
+    EXPECT_TRUE(report.status == Status::stopped || had_ended) << wait << ": " << to_string(report);
   }
 }
 

@@ -82,7 +82,7 @@ export function armLegsDescribed(described: Json): Described {
   const rows = rowsOf(answer), one = round((4 * stiffnessTo(answer, 0)) / answer.length ** 2), force = round((legs.length * 4 * stiffnessTo(answer, 0)) / answer.length ** 2), {length} = answer;
   const axes = isPlanar ? ['x', 'y'] : ['x', 'y', 'z'], onLegs: Row[] = [
     {name: 'leg', path: 'leg that a second force acts on, from 1', unit: '', low: 1, high: legs.length, home: 1, step: 1, limits: none},
-    {name: 's', path: 'place of the second force, from the base along the leg', unit: 'm', low: length / 100, high: length, home: length / 2, limits: none},
+    {name: 's', path: 'place of the second force, from the base along the leg, at most at its end', unit: 'm', low: length / 100, high: length, home: length / 2, limits: none},
     ...axes.map((axis) => ({...free(`P${axis}`, 'N', 0, one), path: 'force at s of the leg'})), ...axes.map((axis) => ({...free(`q${axis}`, 'N/m', 0, round(one / length)), path: 'force along all legs, by their length'})),
   ];
   return {
@@ -133,8 +133,9 @@ export function pointLoad(described: Described, {load}: State): {leg: number; pl
   if (!described.isArm) return null;
   const {hasArmLegs, isPlanar} = described, [first, ...rest] = load.slice(wrenchParts(described)) as [number, ...number[]], size = hasArmLegs && isPlanar ? 2 : 3;
   const [place, ...force] = hasArmLegs ? rest : [first, ...rest];
-  const parts = force.slice(0, size);
-  return parts.some((part) => part !== 0) ? {leg: hasArmLegs ? Math.round(first) - 1 : 0, place: place!, force: parts} : null;
+  const parts = force.slice(0, size), leg = hasArmLegs ? Math.round(first) - 1 : 0;
+  const end: number = hasArmLegs ? described.answer.legs[leg].link.length : described.answer.length; // the slider goes to that of the longest leg
+  return parts.some((part) => part !== 0) ? {leg, place: Math.min(place!, end), force: parts} : null;
 }
 
 /** Of a platform a force along all legs, in space three numbers, by their length; null where there is none. */

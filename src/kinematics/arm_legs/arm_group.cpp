@@ -47,7 +47,7 @@ bool has_other_joints(const strain::RodModel& a, const strain::RodModel& b) {
          });
 }
 
-/// In the plane a moment has one: it turns about one axis alone.
+/// A moment has a potential in the plane, where all turns are about one axis.
 bool bears_a_potential(const ArmLoad& load, bool is_planar) {
   const auto is_zero = [](std::span<const double> numbers) {
     return std::ranges::all_of(numbers, [](double x) { return x == 0; });
@@ -545,6 +545,18 @@ Mat<double, 6, 6> ArmGroup::following_curvature() const {
   return change;
 }
 
+bool ArmGroup::loads_have_potential() const {
+  ArmLoad on_legs;
+  on_legs.following_along = loads_.following_along;
+  for (const ArmLegsPointLoad& point : loads_.points) {
+    PointLoad& own = on_legs.points.emplace_back();
+    own.wrench = point.wrench;
+    own.following = point.following;
+  }
+  return std::ranges::all_of(loads_.following, [](double x) { return x == 0; }) &&
+         (robot_->is_planar || wrench_.tail<3>().isZero(0)) && bears_a_potential(on_legs, robot_->is_planar);
+}
+
 bool ArmGroup::has_potential() const {
   return std::ranges::all_of(loads_.following, [](double x) { return x == 0; }) &&
          (robot_->is_planar || wrench_.tail<3>().isZero(0)) &&
@@ -583,7 +595,7 @@ ArmGroup::Vector ArmGroup::units() const {
   return unit;
 }
 
-ArmGroup::Matrix ArmGroup::whole(std::span<const EvenPart> even) const {
+ArmGroup::Matrix ArmGroup::whole(std::span<const SymmetricPart> parts) const {
   const Vector unit = units();
   const auto size = unit.size();
   Matrix whole = Matrix::Zero(size, size);
@@ -592,7 +604,7 @@ ArmGroup::Matrix ArmGroup::whole(std::span<const EvenPart> even) const {
   for (std::size_t k = 0; k < legs_.size(); ++k) {
     const Leg& leg = legs_[k];
     const int all = leg.unknowns();
-    whole.block(next, next, all, all) = even.empty() ? -leg.D : -even[k].D;
+    whole.block(next, next, all, all) = parts.empty() ? -leg.D : -parts[k].D;
     whole.block(next, size - 6, all, 6) = leg.X;
     whole.block(size - 6, next, 6, all) = leg.X.transpose();
     whole.bottomRightCorner(6, 6) += curvature(leg);
@@ -661,9 +673,9 @@ void ArmGroup::move_as_planned() {
 }
 
 /// The rod's factors stay those of its own Hessian.
-ArmGroup::EvenPart ArmGroup::even_part(const Leg& leg) const {
+ArmGroup::SymmetricPart ArmGroup::symmetric_part(const Leg& leg) const {
   if (leg.has_potential) return {leg.D, leg.negative, true};
-  EvenPart even;
+  SymmetricPart part;
   const strain::RodModel& model = rod(leg).model();
   strain::RodWork& work = rod(leg).work();
   const std::vector<strain::PieceTerms> kept = work.pieces;
@@ -673,29 +685,29 @@ ArmGroup::EvenPart ArmGroup::even_part(const Leg& leg) const {
     Matrix sides = Matrix::Zero(model.size, stride);
     sides.leftCols(all) = leg.B.transpose();
     strain::solve(model, work, sides.data(), all, stride);
-    even.D = leg.B * sides.leftCols(all);
-    even.D.diagonal() += leg.C;
-    even.D = (0.5 * (even.D + even.D.transpose())).eval();
-    even.negative = inertia.negative;
-    even.ok = even.D.allFinite();
+    part.D = leg.B * sides.leftCols(all);
+    part.D.diagonal() += leg.C;
+    part.D = (0.5 * (part.D + part.D.transpose())).eval();
+    part.negative = inertia.negative;
+    part.ok = part.D.allFinite();
   }
   work.pieces = kept;
   work.symmetric = false;
-  return even;
+  return part;
 }
 
 int ArmGroup::unstable() const {
-  std::vector<EvenPart> parts;
+  std::vector<SymmetricPart> parts;
   int count = 0;
   for (const Leg& leg : legs_) {
-    const EvenPart& even = parts.emplace_back(even_part(leg));
-    if (!even.ok) return -1;
-    count += even.negative - leg.forces();
+    const SymmetricPart& part = parts.emplace_back(symmetric_part(leg));
+    if (!part.ok) return -1;
+    count += part.negative - leg.forces();
   }
   const Matrix matrix = whole(parts);
   if (!matrix.allFinite()) return -1;
-  const Matrix even = 0.5 * (matrix + matrix.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(even, Eigen::EigenvaluesOnly);
+  const Matrix symmetric = 0.5 * (matrix + matrix.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(symmetric, Eigen::EigenvaluesOnly);
   for (const double value : found.eigenvalues()) count += value < 0;
   return count;
 }
@@ -771,9 +783,9 @@ bool ArmGroup::plan_held() {
 int ArmGroup::unstable_held() const {
   int count = 0;
   for (const Leg& leg : legs_) {
-    const EvenPart even = even_part(leg);
-    if (!even.ok) return -1;
-    count += unstable_with_tip_held(leg, even.D, even.negative);
+    const SymmetricPart part = symmetric_part(leg);
+    if (!part.ok) return -1;
+    count += unstable_with_tip_held(leg, part.D, part.negative);
   }
   return count;
 }

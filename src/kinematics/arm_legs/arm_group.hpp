@@ -119,6 +119,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   const LegsLoads& loads() const { return loads_; }
 
   bool has_potential() const override;
+  bool loads_have_potential() const;  ///< at whatever share of them
   int unstable_by_symmetric_part() const override;
   /// Elastic, of weight, of forces that keep their direction and of tendons that stretch [J].
   double potential() const;
@@ -190,18 +191,18 @@ class ArmGroup final : public LimbGroup<Spatial> {
   double force_unit(const Leg& leg) const;
   bool factor_compliance(Leg& leg) const;
   /// The symmetric part of a leg's Hessian as its unknown forces feel it.
-  struct EvenPart {
+  struct SymmetricPart {
     Matrix D;
     int negative = 0;  ///< directions of the Hessian
     bool ok = false;
   };
-  EvenPart even_part(const Leg& leg) const;
+  SymmetricPart symmetric_part(const Leg& leg) const;
   int unstable_with_tip_held(const Leg& leg, const Matrix& D, int negative) const;
   /// Of the platform's balance by its twist, what turns with it.
   Mat<double, 6, 6> following_curvature() const;
   Wrench turning_wrench() const;  ///< of what turns with the platform, base axes
   /// Of all unknown forces and the platform, without dimension. @param D of every leg, or of none: its own
-  Matrix whole(std::span<const EvenPart> even = {}) const;
+  Matrix whole(std::span<const SymmetricPart> parts = {}) const;
   Vector units() const;
   Vector units_of(const Leg& leg) const;
   std::pair<const Leg*, const Tendon*> find(int feed) const;

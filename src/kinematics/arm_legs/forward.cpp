@@ -149,13 +149,15 @@ std::string_view words_for(Status status, bool has_potential) {
   }
 }
 
-/// A leg that the pose is too far from, in words; or empty.
+/// A leg that the pose is too far from, by more than it may stretch, in words; or empty.
 std::string out_of_reach(const ArmLegs& robot, const ArmGroup::Frame& pose) {
   for (std::size_t k = 0; k < robot.legs.size(); ++k) {
     const ArmLeg& leg = robot.legs[k];
     const double way = (pose.point(leg.platform_point) - leg.base.p).norm(),
                  length = leg.arm.length() + leg.strut;
-    if (way > length)
+    const bool stretches = std::ranges::any_of(
+        leg.arm.sections, [](const ArmSection& section) { return section.start.stretch > 0; });
+    if (way > (1 + (stretches ? 1e-2 : 1e-9)) * length)
       return fmt::format(
           "leg {} is out of reach: from its base to the platform it is {:.4g} m, and it is {:.4g} m "
           "long",
@@ -566,7 +568,7 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
     state.report.message =
         FixedText<240>(is_held && found.status == Status::stalled
                            ? words_of_held(robot, problem, found, state.reached)
-                           : fmt::format(fmt::runtime(words_for(found.status, group->has_potential())),
+                           : fmt::format(fmt::runtime(words_for(found.status, group->loads_have_potential())),
                                          100 * state.reached));
   else if (began_anew)
     state.report.message = FixedText<240>(

@@ -54,9 +54,8 @@ class RefinedLegs final : public RefinedSearch {
     solve_legs(robot_, {robot_, as_commands(tensions), load_}, last, work_);
     return work_.impl().state.report;
   }
-  Report refine_nearest(PulledBody&, const std::vector<double>&) override {
-    return work_.impl().state.report;
-  }
+  bool refines_nearest() const override { return false; }
+  Report as_found(PulledBody&, const std::vector<double>&) override { return work_.impl().state.report; }
 
  private:
   const ArmLegs& robot_;

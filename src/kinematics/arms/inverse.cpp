@@ -60,12 +60,9 @@ class RefinedArm final : public RefinedSearch {
   Report refine(const std::vector<double>& tensions) override {
     return PulledArm(arm_, load_, options_, work_).pull(tensions, true);
   }
-  Report refine_nearest(PulledBody& body, const std::vector<double>& tensions) override {
-    if (const Report report = refine(tensions); report.is_solved()) return report;
-    body.bring_back();
-    Report report = body.pull(tensions, true);
-    report.message = FixedText<240>(", by coarse polynomials that finer ones do not confirm");
-    return report;
+  bool refines_nearest() const override { return true; }
+  Report as_found(PulledBody& body, const std::vector<double>& tensions) override {
+    return body.pull(tensions, true);
   }
 
  private:

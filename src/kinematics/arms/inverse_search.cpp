@@ -212,10 +212,27 @@ double off_target(const ArmTarget& target, const SE3<double>& tip, double length
   return largest(tip_off(target, tip, length));
 }
 
+namespace {
+
+/// Of a search that ended without an equilibrium.
+Report without_equilibrium(const FoundTensions& found, const TensionSearch& search, int iterations) {
+  const std::string why =
+      found.has_begun
+          ? fmt::format("the search for tensions lost the equilibrium of the {} on its way", search.what)
+          : fmt::format(
+                "the search for tensions has nowhere to begin: of {} first tensions, none at all and "
+                "some of each, none holds the {} under these loads",
+                search.starts, search.what);
+  return {Status::stalled, iterations, 0,
+          FixedText<240>(why + "; give a start, where others hold it, or less load")};
+}
+
+}  // namespace
+
 Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
   int iterations = 0;
   Report report;
-  FixedText<240> of_nearest;
+  bool is_confirmed = true;
   for (int round = 0; round < 4; ++round) {
     const std::unique_ptr<PulledBody> searched = body(round == 0);
     const FoundTensions found = search_tensions(target, search, *searched);
@@ -223,20 +240,20 @@ Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
     const Status status = found.report.status;
     if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
       return found.report;
-    if (!(found.report.residual < 1e300))
-      return {
-          Status::stalled, iterations, 0,
-          FixedText<240>(fmt::format(
-              "the search for tensions has nowhere to begin: of {} first tensions, none at all and some of "
-              "each, none holds the {} under these loads; give a start, where others hold it, or less load",
-              search.starts, search.what))};
+    if (!(found.report.residual < 1e300)) return without_equilibrium(found, search, iterations);
     searched->bring_back();
-    const bool is_near = found.report.residual <= search.precision;
-    report = is_near ? refine(found.tensions) : refine_nearest(*searched, found.tensions);
+    const bool is_near = found.report.residual <= search.precision,
+               is_far = found.report.residual > 10 * search.precision;
+    report = is_near || refines_nearest() ? refine(found.tensions) : as_found(*searched, found.tensions);
+    is_confirmed = report.is_solved() || report.status == Status::stopped || !is_far;
+    if (!is_confirmed) {
+      searched->bring_back();
+      report = as_found(*searched, found.tensions);
+    }
     report.iterations = iterations;
     if (!report.is_solved()) return report;
-    if (!is_near) std::swap(of_nearest, report.message);
     report.residual = off_target(target, searched->tip(), search.length);
+    if (searched->last_tensions().empty()) return report;  // it does not hold, and none goes on from it
     if (!is_near || report.residual <= search.precision) break;
     search.from_last = true;
     search.starts = 1;
@@ -244,10 +261,11 @@ Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
   }
   if (report.residual > 10 * search.precision) {
     const std::string up_to = search.asked > 0 ? fmt::format(" up to {:.4g} N", search.asked) : std::string();
+    const std::string_view by = is_confirmed ? "" : ", by coarse polynomials that finer ones do not confirm";
     report.status = Status::unreachable;
     report.message = FixedText<240>(fmt::format(
         "no tensions{} were found that take the {} there; the nearest is off by {:.2e} of {} length or rad{}",
-        up_to, search.what, report.residual, search.whose, of_nearest.view()));
+        up_to, search.what, report.residual, search.whose, by));
   }
   return report;
 }
@@ -285,6 +303,7 @@ FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& sear
       return best;
     }
     if (!report.is_solved()) continue;
+    best.has_begun = true;
     double error = error_at(), radius = 0.5 * usual, longest_before = 1e300;
     // To the target by the nearest tensions; along it to the least; and to the target again, exactly.
     enum class Way { there, least, exact } way = Way::there;
@@ -328,11 +347,16 @@ FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& sear
       } else {
         radius = 0.4 * std::min(radius, longest);
         report = pull(tensions, true);
-        if (!report.is_solved()) {  // the way back gives way, too
+        if (!report.is_solved() && report.status != Status::stopped) {  // the way back gives way, too
           report = pull(tensions, false);
-          if (!report.is_solved()) break;
-          error = error_at();
+          if (report.is_solved()) error = error_at();
         }
+        if (report.status == Status::stopped) {
+          best.report = report;
+          best.tensions = tensions;
+          return best;
+        }
+        if (!report.is_solved()) break;
         if (radius < 1e-8 * usual) break;
         if (least && radius < 1e-3 * usual) way = Way::exact, radius = usual;
       }

@@ -45,6 +45,7 @@ struct TensionSearch {
 struct FoundTensions {
   Report report;  ///< of the equilibrium; its residual is what the tip is off, 1e300 where none was found
   std::vector<double> tensions;
+  bool has_begun = false;  ///< some first tensions hold the body
 };
 
 /// Tensions of a target with the least sum of squares, or those that come nearest to it.
@@ -62,9 +63,10 @@ class RefinedSearch {
   virtual std::unique_ptr<PulledBody> body(bool is_first) = 0;
   /// From the body's equilibrium, which was brought back: the answer, at polynomials that are fine enough.
   virtual Report refine(const std::vector<double>& tensions) = 0;
-  /// The same where it is off the target anyway: as fine as they can be; what is to be said of that in the
-  /// message.
-  virtual Report refine_nearest(PulledBody& body, const std::vector<double>& tensions) = 0;
+  /// Whether what is off the target is refined, too.
+  virtual bool refines_nearest() const = 0;
+  /// The body's equilibrium as the search has it, which was brought back.
+  virtual Report as_found(PulledBody& body, const std::vector<double>& tensions) = 0;
 
   /// Its residual is what the body's tip is off.
   Report run(const ArmTarget& target, TensionSearch search);
