@@ -2,17 +2,15 @@
 /// tensions, paths. Each is put against forward, which tests of its own put against arms alone.
 #include <gtest/gtest.h>
 
-#include <atomic>
-
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
-#include <thread>
 #include <thread>
 
 #include "tripods.hpp"
