@@ -96,7 +96,7 @@ const largest = (values: number[]) => Math.max(0, ...values.map(Math.abs));
 
 /** @param isOneSided for what is never negative */
 function barSection(title: string, unit: Unit, system: System, named: [string, number][], isOneSided = false): Section {
-  const most = largest(named.map(([, value]) => value));
+  const ends = largest(named.map(([, value]) => value)), most = Number.parseFloat(format(ends, unit, system)) === 0 ? 0 : ends; // bars of what reads 0 would be noise
   const bar = (name: string, value: number) => {
     const text = format(value, unit, system);
     return isOneSided ? filled(name, most > 0 ? value / most : 0, text) : signed(name, value, most, text);

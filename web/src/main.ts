@@ -733,7 +733,7 @@ class Page {
     this.link();
     this.heard();
     document.documentElement.dataset.answers = String(++this.count);  // what tests wait for
-    this.shell.say(`${answer.status ?? 'refused'} · ${(performance.now() - begin).toFixed(0)} ms · ${this.count} answers`);
+    this.shell.say(`${answer.status ?? 'refused'} · ${(performance.now() - begin).toFixed(0)} ms · ${this.count} ${this.count === 1 ? 'answer' : 'answers'}`);
   }
 
   /** Arms are solved for moments, then for where the tip is. */
