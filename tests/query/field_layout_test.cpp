@@ -54,11 +54,11 @@ void compare(const Json& value, const std::string& place, const FieldLayouts& la
 
 /// A number of each tendon, a list a section: of an arm, or of a platform on arms those of leg 0 first.
 Json by_tendons(const Json& described, const std::function<double(std::size_t)>& number) {
-  const Json arms = described["kind"] == "arm" ? Json{described} : [&] {
-    Json links = Json::array();
-    for (const Json& leg : described["legs"]) links.push_back(leg["link"]);
-    return links;
-  }();
+  Json arms = Json::array();
+  if (described["kind"] == "arm")
+    arms.push_back(described);
+  else
+    for (const Json& leg : described["legs"]) arms.push_back(leg["link"]);
   Json lists = Json::array();
   std::size_t count = 0;
   for (const Json& arm : arms) {
@@ -70,49 +70,73 @@ Json by_tendons(const Json& described, const std::function<double(std::size_t)>&
   return lists;
 }
 
+/// A question with these fields. Compilers read nested braces of such trees in more ways than one.
+Json asking(std::string_view query, std::initializer_list<std::pair<const char*, Json>> fields) {
+  Json question = Json::object();
+  question["query"] = query;
+  for (const auto& [name, value] : fields) question[name] = value;
+  return question;
+}
+Json list_of(std::initializer_list<Json> items) {
+  Json list = Json::array();
+  for (const Json& item : items) list.push_back(item);
+  return list;
+}
+
 /// Questions about an arm, its path with friction among them, or about a platform on arms.
 std::vector<Json> questions_of_arms(const Json& described) {
   const auto tensions = [&](double first) {
     return by_tendons(described, [=](std::size_t i) { return i == 0 ? first : 0.5; });
   };
   const Json none = by_tendons(described, [](std::size_t) { return 0.0; });
-  const Json all{"pose", "shape", "stability", "stiffness", "velocity"};
-  std::vector<Json> asked{{{"query", "forward"}, {"changes", none}},
-                          {{"query", "velocity"}, {"changes", none}},
-                          {{"query", "forward"}, {"tensions", tensions(0.6)}, {"want", all}}};
-  Json track{{"query", "track"},
-             {"points", {{{"tensions", tensions(0.6)}}, {{"tensions", tensions(1)}}}},
-             {"steps", 2}};
+  const auto point = [&](double first) {
+    Json at = Json::object();
+    at["tensions"] = tensions(first);
+    return at;
+  };
+  Json track = asking("track", {{"points", list_of({point(0.6), point(1)})}, {"steps", 2}});
   if (described["kind"] == "arm") {
-    track["want"] = {"velocity", "shape"};
+    track["want"] = list_of({"velocity", "shape"});
     track["motions"] = by_tendons(described, [](std::size_t i) { return i == 0 ? 1.0 : 0.5; });
   }
-  asked.push_back(track);
-  track["max_iterations"] = 1;  // it ends on its way: `reached`
-  asked.push_back(track);
-  return asked;
+  Json short_track = track;
+  short_track["max_iterations"] = 1;  // it ends on its way: `reached`
+  std::vector<Json> all;
+  all.push_back(asking("forward", {{"changes", none}}));
+  all.push_back(asking("velocity", {{"changes", none}}));
+  all.push_back(
+      asking("forward", {{"tensions", tensions(0.6)},
+                         {"want", list_of({"pose", "shape", "stability", "stiffness", "velocity"})}}));
+  all.push_back(track);
+  all.push_back(short_track);
+  return all;
 }
 
 /// Questions about a robot near home.
 std::vector<Json> questions(const Json& described, Session& session) {
+  std::vector<Json> all;
   if (described["kind"] == "serial") {
-    const Json bends(described["sections"].size(), Json{0.1, 0.05});
-    return {{{"query", "forward"}, {"configuration", bends}},
-            {{"query", "velocity"}, {"configuration", bends}, {"twist", {1e-3, 0, 0, 0, 0, 0}}}};
+    Json bends = Json::array();
+    for (std::size_t m = 0; m < described["sections"].size(); ++m) bends.push_back(list_of({0.1, 0.05}));
+    all.push_back(asking("forward", {{"configuration", bends}}));
+    all.push_back(asking("velocity", {{"configuration", bends}, {"twist", list_of({1e-3, 0, 0, 0, 0, 0})}}));
+    return all;
   }
   if (described["kind"] == "arm" || described["kind"] == "arm_legs") return questions_of_arms(described);
   const Json& home = described["home"];
-  std::vector<Json> all{{{"query", "inverse"}, {"pose", home}}, {{"query", "velocity"}, {"pose", home}}};
-  for (const char* z : {"z"})  // three inputs hold three of its freedoms
-    if (home.contains("position"))
-      for (const char* query : {"inverse", "velocity"})
-        all.push_back(
-            {{"query", query}, {"independent", {{z, home["position"][2]}, {"e1", 0.01}, {"e2", 0}}}});
+  for (const char* query : {"inverse", "velocity"}) all.push_back(asking(query, {{"pose", home}}));
+  if (home.contains("position")) {  // three inputs hold three of its freedoms
+    Json three = Json::object();
+    three["z"] = home["position"][2];
+    three["e1"] = 0.01;
+    three["e2"] = 0;
+    for (const char* query : {"inverse", "velocity"}) all.push_back(asking(query, {{"independent", three}}));
+  }
   for (std::size_t q = 0, n = all.size(); q < n; ++q) {
     const Json found = Json::parse(session.answer(all[q].dump()));
     if (!found.contains("inputs") || q % 2 == 1) continue;
     for (const char* query : {"forward", "velocity"})
-      all.push_back({{"query", query}, {"inputs", found["inputs"]}});
+      all.push_back(asking(query, {{"inputs", found["inputs"]}}));
   }
   return all;
 }
