@@ -134,7 +134,7 @@ export function pointLoad(described: Described, {load}: State): {leg: number; pl
   const {hasArmLegs, isPlanar} = described, [first, ...rest] = load.slice(wrenchParts(described)) as [number, ...number[]], size = hasArmLegs && isPlanar ? 2 : 3;
   const [place, ...force] = hasArmLegs ? rest : [first, ...rest];
   const parts = force.slice(0, size), leg = hasArmLegs ? Math.round(first) - 1 : 0;
-  const end: number = hasArmLegs ? described.answer.legs[leg].link.length : described.answer.length; // the slider goes to that of the longest leg
+  const end: number = hasArmLegs ? described.answer.legs[leg]?.link.length ?? Infinity : described.answer.length; // the slider goes to that of the longest leg; of no leg the answer says so
   return parts.some((part) => part !== 0) ? {leg, place: Math.min(place!, end), force: parts} : null;
 }
 
