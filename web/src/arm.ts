@@ -134,7 +134,8 @@ export function pointLoad(described: Described, {load}: State): {leg: number; pl
   const {hasArmLegs, isPlanar} = described, [first, ...rest] = load.slice(wrenchParts(described)) as [number, ...number[]], size = hasArmLegs && isPlanar ? 2 : 3;
   const [place, ...force] = hasArmLegs ? rest : [first, ...rest];
   const parts = force.slice(0, size), leg = hasArmLegs ? Math.round(first) - 1 : 0;
-  const end: number = hasArmLegs ? described.answer.legs[leg]?.link.length ?? Infinity : described.answer.length; // the slider goes to that of the longest leg; of no leg the answer says so
+  // the slider goes to the end of the longest leg; beyond that, or of no leg, the answer says so
+  const end: number = hasArmLegs && place! <= described.answer.length ? described.answer.legs[leg]?.link.length ?? Infinity : Infinity;
   return parts.some((part) => part !== 0) ? {leg, place: Math.min(place!, end), force: parts} : null;
 }
 
