@@ -121,6 +121,8 @@ class Robot(Verbs):
         to be read.
         """
         from .prepared import Prepared
+        if not isinstance(query, str):
+            raise TypeError("prepare takes the kind of a question, then its fields: prepare(\"inverse\", pose=\"$pose\")")
         return Prepared(self, query, fields, outputs, path)
 
     def set(self, values: Mapping[str, Any]) -> Robot:

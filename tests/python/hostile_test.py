@@ -135,6 +135,11 @@ class Handles(unittest.TestCase):
         self.assertTrue(row.answer.ok)
         self.assertIn("pose", session.ask_text('{"query": "forward", "inputs": [0.19, 0.19, 0.19]}'))
 
+    def test_prepare_says_what_it_takes(self):
+        for question in ({"query": "forward", "inputs": "$L"}, None, 7):
+            with self.assertRaisesRegex(TypeError, "prepare takes the kind of a question"):
+                sinew.load("3-rfr").prepare(question)
+
     def test_are_not_made_by_hand(self):
         for kind in (_sinew.Handle, _sinew.Session, _sinew.Row):
             with self.assertRaises(TypeError):
