@@ -545,6 +545,11 @@ Mat<double, 6, 6> ArmGroup::following_curvature() const {
   return change;
 }
 
+bool ArmGroup::platform_has_potential() const {
+  return std::ranges::all_of(loads_.following, [](double x) { return x == 0; }) &&
+         (robot_->is_planar || wrench_.tail<3>().isZero(0));
+}
+
 bool ArmGroup::loads_have_potential() const {
   ArmLoad on_legs;
   on_legs.following_along = loads_.following_along;
@@ -553,13 +558,11 @@ bool ArmGroup::loads_have_potential() const {
     own.wrench = point.wrench;
     own.following = point.following;
   }
-  return std::ranges::all_of(loads_.following, [](double x) { return x == 0; }) &&
-         (robot_->is_planar || wrench_.tail<3>().isZero(0)) && bears_a_potential(on_legs, robot_->is_planar);
+  return platform_has_potential() && bears_a_potential(on_legs, robot_->is_planar);
 }
 
 bool ArmGroup::has_potential() const {
-  return std::ranges::all_of(loads_.following, [](double x) { return x == 0; }) &&
-         (robot_->is_planar || wrench_.tail<3>().isZero(0)) &&
+  return platform_has_potential() &&
          std::ranges::all_of(legs_, [](const Leg& leg) { return leg.has_potential; });
 }
 

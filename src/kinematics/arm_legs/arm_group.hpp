@@ -190,6 +190,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   Mat<double, 6, 6> curvature(const Leg& leg) const;
   double force_unit(const Leg& leg) const;
   bool factor_compliance(Leg& leg) const;
+  bool platform_has_potential() const;  ///< what acts on the platform has one
   /// The symmetric part of a leg's Hessian as its unknown forces feel it.
   struct SymmetricPart {
     Matrix D;

@@ -137,8 +137,7 @@ std::string_view words_for(Status status, bool has_potential) {
     case Status::stalled:
       if (!has_potential)
         return "inputs and loads led to an equilibrium that is known to hold up to {:.2f} % of them, and "
-               "beyond "
-               "to none: some of the loads have no potential, and what is beyond may hold or not";
+               "beyond to none: some of the loads have no potential, and what is beyond may hold or not";
       return "inputs and loads led to an equilibrium that holds up to {:.2f} % of them, and beyond to none";
     case Status::iteration_limit:
       return "the bound on iterations was met at {:.2f} % of inputs and loads";
@@ -159,9 +158,8 @@ std::string out_of_reach(const ArmLegs& robot, const ArmGroup::Frame& pose) {
         leg.arm.sections, [](const ArmSection& section) { return section.start.stretch > 0; });
     if (way > (1 + (stretches ? 1e-2 : 1e-9)) * length)
       return fmt::format(
-          "leg {} is out of reach: from its base to the platform it is {:.4g} m, and it is {:.4g} m "
-          "long",
-          k, way, length);
+          "leg {} is out of reach: from its base to the platform it is {:.4g} m, and it is {:.4g} m long", k,
+          way, length);
   }
   return {};
 }
@@ -173,8 +171,7 @@ std::string words_of_held(const ArmLegs& robot, const LegsProblem& problem, cons
   if (!far.empty()) return far;
   if (reached == 1)
     return "coarse polynomials hold the platform at the pose, and finer ones do not: a leg is pulled or bent "
-           "too "
-           "sharply for them";
+           "too sharply for them";
   const char* why =
       found.last == Status::unstable
           ? "a leg gives way by itself: bend it by tensions, or lead the platform there by track"
