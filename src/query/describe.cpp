@@ -2,6 +2,7 @@
 #include "io/quantity.hpp"
 #include "query/context.hpp"
 #include "query/handlers.hpp"
+#include "query/questions.hpp"
 #include "robot/parallel.hpp"
 #include "tendon/input_kind.hpp"
 #include "tendon/theta_is.hpp"
@@ -111,40 +112,47 @@ Value pose_coordinates(bool is_planar) {
                       {{"name", "quaternion"}, {"unit", ""}, {"size", 4}}});
 }
 
-}  // namespace
+struct PlatformDescription : Context {
+  explicit PlatformDescription(const Context& context) : Context(context) {}
+  void read() {}
+  void tell();
+};
 
-void describe_platform(Context& context) {
+void PlatformDescription::tell() {
   Value inputs = Value::list(), legs = Value::list();
-  with_legs(context.robot, [&](const auto& robot) {
-    robot.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+  with_legs(robot, [&](const auto& platform) {
+    platform.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
       if (!place.is_tied) add_inputs(inputs, leg, static_cast<std::size_t>(i));
       legs.push_back(leg_value(leg, place));
     });
   });
-  Value& answer = context.answer;
-  const bool is_planar = std::holds_alternative<PlanarPose>(home(context.robot));
+  const bool is_planar = std::holds_alternative<PlanarPose>(home(robot));
   answer["status"] = "converged";
   answer["kind"] = "parallel";
   answer["space"] = is_planar ? "planar" : "spatial";
   answer["inputs"] = inputs;
   answer["pose"] = pose_coordinates(is_planar);
-  answer["home"] = pose_value(home(context.robot));
-  answer["platform"] = {{"radius", platform_radius(context.robot)}};
-  if (has_rods(context.robot)) {
-    answer["platform"]["mass"] = context.robot.weight().platform_mass;
-    answer["gravity"] = Value(context.robot.weight().gravity);
+  answer["home"] = pose_value(home(robot));
+  answer["platform"] = {{"radius", platform_radius(robot)}};
+  if (has_rods(robot)) {
+    answer["platform"]["mass"] = robot.weight().platform_mass;
+    answer["gravity"] = Value(robot.weight().gravity);
   }
-  answer["freedoms"] = {{"platform", dof(context.robot)},
-                        {"constraints", row_count(context.robot)},
-                        {"actuators", input_count(context.robot)}};
+  answer["freedoms"] = {{"platform", dof(robot)},
+                        {"constraints", row_count(robot)},
+                        {"actuators", input_count(robot)}};
   answer["legs"] = legs;
-  const bool has_arcs = context.robot.model() == Model::cc || context.robot.model() == Model::prb;
-  Value models = Value::list({to_string(has_arcs ? Model::cc : context.robot.model())});
-  if (has_arcs && context.robot.as(Model::prb)) models.push_back("prb");
+  const bool has_arcs = robot.model() == Model::cc || robot.model() == Model::prb;
+  Value models = Value::list({to_string(has_arcs ? Model::cc : robot.model())});
+  if (has_arcs && robot.as(Model::prb)) models.push_back("prb");
   answer["models"] = std::move(models);
-  answer["model"] = to_string(context.robot.model());
-  answer["geometry"] = context.robot.geometry_inferred() ? "inferred" : "given";
+  answer["model"] = to_string(robot.model());
+  answer["geometry"] = robot.geometry_inferred() ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
+
+}  // namespace
+
+void describe_platform(Context& context) { answer_question<PlatformDescription>(context); }
 
 }  // namespace sinew::inline v1

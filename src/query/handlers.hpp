@@ -2,10 +2,8 @@
 /// Who answers questions: of each kind of mechanics one object with what it tells, what it lacks, and a
 /// handler for each kind of question. session.cpp chooses among them.
 #pragma once
-#include <array>
 #include <span>
 #include <string_view>
-#include <type_traits>
 
 #include "query/wants.hpp"
 
@@ -15,27 +13,6 @@ class RowPlaces;
 struct SamplerKind;
 
 using Handler = void (*)(Context&);
-
-namespace handlers {
-template <class Asked, class Own>
-Own own_of(Asked (*)(Own&));
-}  // namespace handlers
-
-/// A handler of a reader, which takes all fields of its question and computes nothing, and of what answers
-/// the question that it read. Both see the question as their mechanics do: as a Context, or what is made of
-/// one.
-template <auto read, auto answer>
-void handle(Context& context) {
-  using Own = decltype(handlers::own_of(read));
-  std::conditional_t<std::is_same_v<Own, Context>, Context&, Own> own(context);
-  const auto asked = read(own);
-  if (own.ready()) answer(own, asked);
-}
-/// The same of a question that has no fields of its own.
-template <void (*answer)(Context&)>
-void tell(Context& context) {
-  if (context.ready()) answer(context);
-}
 
 /// A field that other robots have in every question that solves, with why these have none.
 struct Lack {

@@ -1,7 +1,9 @@
-/// Handler of `describe` of arms.
+/// `describe` of arms and of platforms on arms.
 #include <cmath>
 
+#include "io/quantity.hpp"
 #include "query/arms/arms.hpp"
+#include "query/questions.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/robot/arm.hpp"
 
@@ -22,8 +24,6 @@ Value route_value(const TendonRoute& route) {
   if (route.end_angle != route.start_angle) value["turn"] = route.end_angle - route.start_angle;
   return value;
 }
-
-}  // namespace
 
 Value section_value(const ArmSection& section) {
   Value value{{"type", "elastic"}, {"length", section.length}};
@@ -48,8 +48,6 @@ Value tendon_value(const ArmTendon& tendon) {
           {"friction", tendon.friction},     {"pretension", tendon.pretension}};
 }
 
-namespace {
-
 /// What the file says of how the arm is measured, with a number for each tendon.
 Value measurement_value(const MeasuringSetup& measurement, std::size_t tendons) {
   const auto& [drive, marker] = measurement;
@@ -66,24 +64,50 @@ Value measurement_value(const MeasuringSetup& measurement, std::size_t tendons) 
           {"marker", {{"place", marker.place}, {"base", marker.base}, {"tilt", marker.tilt}}}};
 }
 
-void describe_arm(Context& context) {
-  const Arm& arm = *context.robot.arm();
-  Value inputs = Value::list(), sections = Value::list(), tendons = Value::list();
-  for (const ArmSection& section : arm.sections) sections.push_back(section_value(section));
-  std::vector<std::size_t> counts(arm.sections.size());
-  for (const ArmTendon& tendon : arm.tendons) {
-    const auto section = static_cast<std::size_t>(tendon.section());
-    const std::string name = joined(joined("sections", section) + ".tendons", counts[section]++);
-    inputs.push_back({{"name", name}, {"unit", "m"}});
-    tendons.push_back(tendon_value(tendon));
+Value point_value(const ArmLegs& robot, const Vec3<double>& point) {
+  return robot.is_planar ? Value(Vec2<double>(point.head<2>())) : Value(point);
+}
+/// As a file has it.
+Value base_value(const ArmLegs& robot, const ArmLeg& leg) {
+  const Vec3<double> ahead = leg.base.rotate(Vec3<double>(0, 0, 1));
+  Value base{{"point", point_value(robot, leg.base.p)}};
+  if (robot.is_planar) {
+    if (!leg.turns_at_base) base["direction"] = std::atan2(ahead.y(), ahead.x());
+    return base;
   }
-  Value& answer = context.answer;
-  answer["status"] = "converged";
+  base["direction"] = Value(ahead);
+  base["section_x"] = Value(leg.base.rotate(Vec3<double>(1, 0, 0)));
+  return base;
+}
+Value closure_value(const ArmLegs& robot, const ArmLeg& leg) {
+  if (leg.strut > 0) return {{"type", "strut"}, {"length", leg.strut}};
+  const char* joint = !robot.is_planar ? "ball" : leg.turns_at_base ? "chord" : "pin";
+  return {{"type", leg.is_clamped ? "clamp" : joint}};
+}
+
+/// Of an arm, or of one in a leg, whose place in the file this is.
+struct ArmParts {
+  Value inputs = Value::list(), sections = Value::list(), tendons = Value::list();
+
+  ArmParts(const Arm& arm, const std::string& path) {
+    for (const ArmSection& section : arm.sections) sections.push_back(section_value(section));
+    std::vector<std::size_t> counts(arm.sections.size());
+    for (const ArmTendon& tendon : arm.tendons) {
+      const auto section = static_cast<std::size_t>(tendon.section());
+      const std::string name = joined(joined(path, section) + ".tendons", counts[section]++);
+      inputs.push_back({{"name", name}, {"unit", "m"}});
+      tendons.push_back(tendon_value(tendon));
+    }
+  }
+};
+
+void describe(Value& answer, const Arm& arm) {
+  ArmParts parts(arm, "sections");
   answer["kind"] = "arm";
   answer["space"] = "spatial";
-  answer["inputs"] = inputs;
-  answer["sections"] = sections;
-  answer["tendons"] = tendons;
+  answer["inputs"] = std::move(parts.inputs);
+  answer["sections"] = std::move(parts.sections);
+  answer["tendons"] = std::move(parts.tendons);
   answer["length"] = arm.length();
   answer["gravity"] = arm.gravity;
   answer["tip"] = {{"mass", arm.tip_mass}, {"place", arm.tip_mass_place}};
@@ -91,14 +115,54 @@ void describe_arm(Context& context) {
   if (const auto& motor = arm.motor)
     answer["motor"] = {{"lead", motor->lead}, {"counts", motor->counts}, {"gear", motor->gear}};
   if (arm.measurement) answer["measurement"] = measurement_value(*arm.measurement, arm.tendons.size());
-  answer["models"] = Value::list({"rod", "subsegment_rod", "subsegment_cc", "cc", "prb"});
-  answer["model"] = "subsegment_rod";
-  answer["geometry"] = arm.geometry_inferred ? "inferred" : "given";
-  answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
+
+void describe(Value& answer, const ArmLegs& robot) {
+  Value inputs = Value::list(), legs = Value::list();
+  for (std::size_t k = 0; k < robot.legs.size(); ++k) {
+    const ArmLeg& leg = robot.legs[k];
+    ArmParts parts(leg.arm, joined("legs", k) + ".link.sections");
+    for (std::size_t i = 0; i < parts.inputs.size(); ++i) inputs.push_back(std::move(parts.inputs[i]));
+    legs.push_back({{"base", base_value(robot, leg)},
+                    {"link",
+                     {{"type", "elastic"},
+                      {"length", leg.arm.length()},
+                      {"sections", std::move(parts.sections)},
+                      {"tendons", std::move(parts.tendons)}}},
+                    {"closure", closure_value(robot, leg)},
+                    {"platform_point", point_value(robot, leg.platform_point)}});
+  }
+  answer["kind"] = "arm_legs";
+  answer["space"] = robot.is_planar ? "planar" : "spatial";
+  answer["inputs"] = std::move(inputs);
+  answer["home"] = pose_value(pose_of(robot.is_planar, SE3<double>::from(robot.home)));
+  answer["platform"] = {{"mass", robot.platform_mass}};
+  answer["gravity"] = robot.gravity;
+  answer["legs"] = std::move(legs);
+}
+
+template <class Arms>
+struct ArmDescription : ArmContextOf<Arms> {
+  using ArmContextOf<Arms>::ArmContextOf;
+  using Question::answer;
+  void read() {}
+  void tell() {
+    answer["status"] = "converged";
+    describe(answer, this->robot);
+    answer["models"] = Value::list({"rod", "subsegment_rod", "subsegment_cc", "cc", "prb"});
+    answer["model"] = "subsegment_rod";
+    answer["geometry"] = this->robot.geometry_inferred ? "inferred" : "given";
+    answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
+  }
+};
 
 }  // namespace
 
-void answer_arm_describe(Context& context) { tell<describe_arm>(context); }
+template <class Arms>
+void answer_arms_describe(Context& context) {
+  answer_question<ArmDescription<Arms>>(context);
+}
+template void answer_arms_describe<Arm>(Context&);
+template void answer_arms_describe<ArmLegs>(Context&);
 
 }  // namespace sinew::inline v1

@@ -1,16 +1,18 @@
-/// `track` of an arm: along a path of inputs and loads, with the friction of its tendons.
+/// `track` of arms and of platforms on arms, along a path of inputs and loads: of an arm with the friction of
+/// its tendons, of a platform to poses, too.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "io/quantity.hpp"
 #include "io/reader.hpp"
 #include "query/arms/arms.hpp"
-#include "sinew/kinematics/arm.hpp"
+#include "query/questions.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
+
+namespace {
 
 int read_path_steps(Reader& query, const Reader& list, std::size_t points) {
   constexpr int default_steps = 10, max_steps = 10000;
@@ -27,46 +29,62 @@ int read_path_steps(Reader& query, const Reader& list, std::size_t points) {
   return steps;
 }
 
-namespace {
+/// Fields of paths of poses, as other robots are given, and `motions` where tendons do not rub.
+void refuse_others(Question& question, std::initializer_list<const char*> fields, const char* why) {
+  for (const char* field : fields)
+    if (question.query.node()->find(field))  // else it is no field of this question
+      if (const auto given = question.query.optional(field)) given->fail("not_available", why);
+}
+void refuse_others(ArmContext& context) {
+  refuse_others(context, {"poses", "from", "to", "objective"},
+                "an arm is followed along what holds its tendons: give points: [{tensions: [[1, 0, 0]]}, "
+                "...]; for the tensions that reach a pose ask inverse");
+}
+void refuse_others(ArmLegsContext& context) {
+  refuse_others(context, {"poses", "from", "to", "objective"},
+                "legs of sections are followed along points: [{pose: ...}, ...], or tensions, changes and "
+                "loads");
+  refuse_others(context, {"motions"},
+                "tendons of legs of sections do not rub; ask velocity for their rates");
+}
+
+/// Where inputs are to lead, which a point of a platform's path may say in their place. Whether it does.
+bool read_pose_of_step(const Arm&, Reader&, ArmStep&, bool) { return false; }
+bool read_pose_of_step(const ArmLegs& robot, Reader& point, ArmLegsStep& step, bool has_inputs) {
+  if (has_inputs) step.pose.reset();
+  auto pose = point.optional("pose");
+  if (!pose) return step.pose.has_value();
+  if (has_inputs) pose->fail("ambiguous", "the point gives a pose and what holds tendons; keep one");
+  step.pose = read_pose_of(robot.is_planar, std::move(*pose));
+  return true;
+}
 
 /// The points of the path; what a point does not say is as at the point before, of loads as in the question.
-std::vector<ArmStep> read_points(ArmContext& context) {
+template <class Step, class Arms>
+std::vector<Step> read_points(ArmContextOf<Arms>& context) {
   Reader& query = context.query;
-  const ArmLoad load = read_arm_load(context.robot, query);
-  std::vector<ArmStep> path;
-  const auto list = query.required("points", "the path: [{tensions or changes, wrench, ...}, ...]");
+  const Arms& robot = context.robot;
+  const auto load = read_arm_load(robot, query);
+  std::vector<Step> path;
+  const auto list =
+      query.required("points", "the path: [{tensions, changes, of a platform pose, wrench, ...}, ...]");
   for (Reader& point : list.items()) {
     if (!point.is(Node::Kind::map)) {
       point.refuse("wrong_type", "give a map: {tensions: [[1, 0, 0]]}.");
       continue;
     }
-    if (point.has("tensions") || point.has("changes"))
-      path.push_back({read_arm_commands(context.robot, point), {}});
-    else if (!path.empty())
-      path.push_back({path.back().commands, {}});
-    else
+    Step step = path.empty() ? Step{} : path.back();
+    const bool has_inputs = point.has("tensions") || point.has("changes");
+    if (has_inputs) step.commands = read_arm_commands(tendon_counts(robot), point);
+    if (!read_pose_of_step(robot, point, step, has_inputs) && !has_inputs && path.empty())
       point.required("tensions", "of the first point; or changes: what holds the tendons");
-    ArmLoad at_point = read_arm_load(context.robot, point, load);
-    if (!path.empty()) path.back().load = std::move(at_point);
+    step.load = read_arm_load(robot, point, load);
     point.close();
+    path.push_back(std::move(step));
   }
   const int steps = read_path_steps(query, list, path.size());
-  for (ArmStep& step : path) step.divisions = steps;
+  for (Step& step : path) step.divisions = steps;
   return path;
-}
-
-/// A path of poses, as other robots are given; whether there is one.
-bool refuse_poses(Question& question) {
-  bool is_given = false;
-  for (const char* field : {"poses", "from", "to", "objective"})
-    if (question.query.node()->find(field))  // else it is no field of this question
-      if (const auto given = question.query.optional(field)) {
-        is_given = true;
-        given->fail("not_available",
-                    "an arm is followed along what holds its tendons: give points: [{tensions: [[1, 0, 0]]}, "
-                    "...]; for the tensions that reach a pose ask inverse");
-      }
-  return is_given;
 }
 
 /// Of every tendon the tension where it is fixed.
@@ -74,16 +92,6 @@ std::vector<double> end_tensions(const ArmPathPoint& point) {
   std::vector<double> values;
   for (const std::vector<double>& along : point.tensions) values.push_back(along.back());
   return values;
-}
-
-void put_point(const Arm& arm, const ArmPathPoint& point, Value& value) {
-  const ArmState& state = point.state;
-  value["tip"] = pose_value(AnyPose(spatial_pose(state.tip)));
-  value["tensions"] = by_end_section(arm, state.tensions);
-  value["end_tensions"] = by_end_section(arm, end_tensions(point));
-  value["changes"] = by_end_section(arm, state.changes);
-  value["slack"] = by_end_section(arm, state.slack);
-  put_number(value, "potential", state.energy);
 }
 
 /// Of one tendon, as what holds it begins to grow (+1) or to shrink (−1).
@@ -123,87 +131,156 @@ Value in_motion(ArmContext& context, std::span<const double> motions) {
   return value;
 }
 
-struct ArmTrack {
-  ArmOptions options;
-  std::vector<ArmStep> path;
-  Wants words;
-  int samples = 0;
-  std::optional<std::vector<double>> motions = {};
+const ArmState& state_of(const ArmPathPoint& point) { return point.state; }
+const ArmLegsState& state_of(const ArmLegsState& point) { return point; }
+
+/// A row's numbers, or those of where a path ends.
+void put_point(Value& value, const Arm& arm, const ArmPathPoint& point) {
+  put_arm_numbers(value, arm, point.state);
+  value["end_tensions"] = by_end_section(arm, end_tensions(point));
+}
+void put_point(Value& value, const ArmLegs& robot, const ArmLegsState& point) {
+  put_arm_numbers(value, robot, point);
+}
+void put_work(Value& row, const ArmPathPoint& point) {
+  row["motor_work"] = point.motor_work;
+  row["friction_loss"] = point.friction_loss;
+}
+void put_work(Value&, const ArmLegsState&) {}
+
+/// @tparam Arms Arm or ArmLegs
+template <class Arms>
+struct ArmPath : ArmContextOf<Arms> {
+  using Step = std::conditional_t<std::is_same_v<Arms, Arm>, ArmStep, ArmLegsStep>;
+  using Point = std::conditional_t<std::is_same_v<Arms, Arm>, ArmPathPoint, ArmLegsState>;
+  using ArmContextOf<Arms>::ArmContextOf;
+  using ArmContextOf<Arms>::robot;
+  using Question::answer;
+
+  void read();
+  void solve();
+  void tell();
+
+ private:
+  void read_wanted();
+  void tell_last(const Report& report);
+
+  ArmInverseOptions options_ = {};
+  std::vector<Step> path_ = {};
+  Wants words_ = {};
+  int samples_ = 0;
+  std::optional<std::vector<double>> motions_ = {};  ///< of an arm
+  std::vector<Point> points_ = {};
+  bool arrives_ = false;
 };
 
-ArmTrack read_track(ArmContext& context) {
-  ArmTrack asked;
-  asked.options = read_arm_options(context);
-  asked.path = read_points(context);
-  read_arm_start(context, asked.options);
-  asked.words = read_wants(context, {Want::pose}, {Want::pose, Want::shape, Want::velocity});
-  asked.samples = read_samples(context, asked.words, 60, 2000);
-  if (const auto given = context.query.optional("motions")) {
-    asked.motions = read_arm_motions(context.robot, *given);
-    if (context.errors.empty() && std::ranges::all_of(*asked.motions, [](double rate) { return rate == 0; }))
-      given->fail("out_of_range", "all tendons rest: give a rate other than 0 for one that moves");
-  }
-  return asked;
+template <>
+void ArmPath<Arm>::read_wanted() {
+  words_ = read_wants(*this, {Want::pose}, {Want::pose, Want::shape, Want::velocity});
+  const auto motions = query.optional("motions");
+  if (!motions) return;
+  motions_ = read_arm_motions(robot, *motions);
+  if (errors.empty() && std::ranges::all_of(*motions_, [](double rate) { return rate == 0; }))
+    motions->fail("out_of_range", "all tendons rest: give a rate other than 0 for one that moves");
+}
+template <>
+void ArmPath<ArmLegs>::read_wanted() {
+  words_ = read_wants(*this);
 }
 
-void answer_track(ArmContext& context, const ArmTrack& asked) {
-  const std::vector<ArmStep>& path = asked.path;
-  const std::vector<ArmPathPoint> points = arm_follow(context.robot, path, asked.options, context.work);
-  const ArmPathPoint& last = points.back();
-  Value& answer = context.answer;
-  context.report(last.state.report);
-  if (last.tensions.empty()) return;  // refused: no step was tried
+template <class Arms>
+void ArmPath<Arms>::read() {
+  refuse_others(*this);
+  options_.arm = read_arm_options(*this, robot);
+  path_ = read_points<Step>(*this);
+  read_arm_start(*this, options_.arm);
+  read_wanted();
+  samples_ = read_samples(*this, words_, 60, 2000);
+}
 
-  const auto steps = static_cast<std::size_t>(path.front().divisions);
-  const bool arrives = last.state.report.ok();
-  const std::size_t reached = arrives ? points.size() : points.size() - 1;
-  Value rows = Value::list();
-  double work = 0, loss = 0, worst = 0;
-  int iterations = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    work += points[k].motor_work;
-    loss += points[k].friction_loss;
-    iterations += points[k].state.report.iterations;
-    if (k == reached) break;
-    worst = std::max(worst, points[k].state.report.residual);
-    Value row{{"point", k / steps},
-              {"part", static_cast<double>(k % steps + 1) / static_cast<double>(steps)}};
-    put_point(context.robot, points[k], row);
-    row["motor_work"] = points[k].motor_work;
-    row["friction_loss"] = points[k].friction_loss;
-    rows.push_back(std::move(row));
-  }
-  if (!arrives) {
-    answer["message"] =
-        fmt::format("the path ends on its way to points[{}], in step {} of {}: {}", reached / steps,
-                    reached % steps + 1, steps, last.state.report.message.view());
-    answer["reached"] = {{"rows", reached}, {"point", reached / steps}};
-  }
-  put_point(context.robot, last, answer);  // where it ends
-  if (asked.words.has(Want::shape)) {
+template <>
+void ArmPath<Arm>::solve() {
+  points_ = arm_follow(robot, path_, options_.arm, work);
+}
+template <>
+void ArmPath<ArmLegs>::solve() {
+  points_ = arm_legs_track(robot, path_, options_, work);
+}
+
+/// Where it ends.
+template <>
+void ArmPath<Arm>::tell_last(const Report& report) {
+  const ArmPathPoint& end = points_.back();
+  put_point(answer, robot, end);
+  answer["residual"] = report.residual;
+  answer["iterations"] = report.iterations;
+  if (words_.has(Want::shape)) {
     Value along = Value::list();
-    for (const std::vector<double>& tensions : last.tensions) along.push_back(Value(tensions));
+    for (const std::vector<double>& tensions : end.tensions) along.push_back(Value(tensions));
     answer["tensions_along"] = std::move(along);
-    put_arm_shape(context, asked.samples);
+    put_arm_shape(*this, end.state, samples_);
   }
-  if (asked.words.has(Want::velocity) && arrives) {
+  if (words_.has(Want::velocity) && arrives_) {
     Value list = Value::list();
-    for (std::size_t i = 0; i < context.robot.tendons.size(); ++i)
-      list.push_back({{"growing", one_sided(context, i, 1)}, {"shrinking", one_sided(context, i, -1)}});
+    for (std::size_t i = 0; i < robot.tendons.size(); ++i)
+      list.push_back({{"growing", one_sided(*this, i, 1)}, {"shrinking", one_sided(*this, i, -1)}});
     answer["one_sided"] = std::move(list);
   }
-  if (asked.motions && arrives) answer["in_motion"] = in_motion(context, *asked.motions);
-  answer["motor_work"] = work;
-  answer["friction_loss"] = loss;
-  answer["residual"] = worst;
-  answer["iterations"] = iterations;
+  if (motions_ && arrives_) answer["in_motion"] = in_motion(*this, *motions_);
+  double of_motors = 0, of_friction = 0;
+  for (const ArmPathPoint& point : points_) {
+    of_motors += point.motor_work;
+    of_friction += point.friction_loss;
+  }
+  answer["motor_work"] = of_motors;
+  answer["friction_loss"] = of_friction;
+}
+template <>
+void ArmPath<ArmLegs>::tell_last(const Report& report) {
+  put_arm_state(*this, points_.back(), report);
+  if (has_friction(robot)) add_message("tendons are taken as if they did not rub");
+  if (arrives_) put_arm_wants(*this, points_.back(), words_, samples_);
+}
+
+template <class Arms>
+void ArmPath<Arms>::tell() {
+  Report report = state_of(points_.back()).report;
+  arrives_ = report.ok();
+  this->report(report);
+  if (state_of(points_.back()).tensions.empty()) return;  // refused: no step was tried
+
+  const auto steps = static_cast<std::size_t>(path_.front().divisions);
+  const std::size_t reached = arrives_ ? points_.size() : points_.size() - 1;
+  Value rows = Value::list();
+  report.residual = 0;
+  report.iterations = 0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto& state = state_of(points_[k]);
+    report.iterations += state.report.iterations;
+    if (k == reached) break;
+    report.residual = std::max(report.residual, state.report.residual);
+    Value row{{"point", k / steps},
+              {"part", static_cast<double>(k % steps + 1) / static_cast<double>(steps)}};
+    put_point(row, robot, points_[k]);
+    put_work(row, points_[k]);
+    rows.push_back(std::move(row));
+  }
+  if (!arrives_)
+    answer["message"] =
+        fmt::format("the path ends on its way to points[{}], in step {} of {}: {}", reached / steps,
+                    reached % steps + 1, steps, report.message.view());
+  tell_last(report);
+  if (!arrives_) answer["reached"] = {{"rows", reached}, {"point", reached / steps}};
   answer["rows"] = std::move(rows);
 }
 
 }  // namespace
 
+template <class Arms>
 void answer_arms_track(Context& context) {
-  if (!refuse_poses(context)) handle<read_track, answer_track>(context);
+  answer_question<ArmPath<Arms>>(context);
 }
+template void answer_arms_track<Arm>(Context&);
+template void answer_arms_track<ArmLegs>(Context&);
 
 }  // namespace sinew::inline v1

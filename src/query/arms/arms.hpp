@@ -1,25 +1,92 @@
 /// @file arms.hpp
-/// What the handlers of questions to arms share.
+/// What questions to arms, and to platforms on arms, have in common: what is read of them, and what is told.
 #pragma once
 #include "io/reader.hpp"
+#include "math/plane_axes.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
 #include "sinew/kinematics/arm.hpp"
+#include "sinew/kinematics/arm_legs.hpp"
 
 namespace sinew::inline v1 {
 
-/// A query put to an arm.
-struct ArmContext : Question {
-  const Arm& robot;
-  ArmWorkspace& work;
-  std::vector<std::array<double, 3>> curvatures = {};  ///< of `start` [rad/m]
-  explicit ArmContext(Context& context)
+/// @name What an arm and a platform on arms are asked by
+/// @{
+template <class Arms>
+struct ArmTypes;
+template <>
+struct ArmTypes<Arm> {
+  using Workspace = ArmWorkspace;
+  using Load = ArmLoad;
+  using State = ArmState;
+  using Start = std::vector<std::array<double, 3>>;  ///< curvatures; empty: none
+  using Growth = ArmLoadPath;
+  using Measurement = ArmMeasurement;
+  using Sensed = ArmSensed;
+  static const Arm& of(const Robot& robot) { return *robot.arm(); }
+  static ArmWorkspace& of(const sinew::Workspace& work) { return *work.arm; }
+};
+template <>
+struct ArmTypes<ArmLegs> {
+  using Workspace = ArmLegsWorkspace;
+  using Load = ArmLegsLoad;
+  using State = ArmLegsState;
+  using Start = std::optional<ArmLegsStart>;
+  using Growth = ArmLegsLoadPath;
+  using Measurement = ArmLegsMeasurement;
+  using Sensed = ArmLegsSensed;
+  static const ArmLegs& of(const Robot& robot) { return *robot.arm_legs(); }
+  static ArmLegsWorkspace& of(const sinew::Workspace& work) { return *work.arm_legs; }
+};
+/// @}
+
+/// A query put to one of them.
+template <class Arms>
+struct ArmContextOf : Question {
+  const Arms& robot;
+  typename ArmTypes<Arms>::Workspace& work;
+  explicit ArmContextOf(Context& context)
       : Question(context),
-        robot(*context.robot.arm()),
-        work(*context.work.arm) {
+        robot(ArmTypes<Arms>::of(context.robot)),
+        work(ArmTypes<Arms>::of(context.work)) {
     work.stop = context.work.stop;
   }
 };
+using ArmContext = ArmContextOf<Arm>;
+using ArmLegsContext = ArmContextOf<ArmLegs>;
+
+/// @name Numbers of a robot in space, or of one in the plane those that it has
+/// @{
+inline bool is_planar(const Arm&) { return false; }
+inline bool is_planar(const ArmLegs& robot) { return robot.is_planar; }
+inline std::span<const std::size_t> freedoms_of(bool is_planar) {
+  static constexpr std::array<std::size_t, 6> all{0, 1, 2, 3, 4, 5};
+  return is_planar ? std::span<const std::size_t>(plane_axes) : std::span<const std::size_t>(all);
+}
+AnyPose pose_of(bool is_planar, const SE3<double>& pose);
+SE3<double> read_pose_of(bool is_planar, Reader pose);
+std::array<double, 3> read_position_of(bool is_planar, const Reader& position);
+std::array<double, 6> read_wrench_of(bool is_planar, const Reader& list);
+Value wrench_value(bool is_planar, const std::array<double, 6>& wrench);
+/// @param by_rows, by_columns whether rows, or columns, are six of the freedoms, or of a wrench
+Value matrix_value(bool is_planar, const double* numbers, std::size_t rows, std::size_t columns, bool by_rows,
+                   bool by_columns);
+/// @}
+
+/// How many tendons end at each section; of a platform, sections of leg 0 first.
+std::vector<std::size_t> tendon_counts(const Arm& arm);
+std::vector<std::size_t> tendon_counts(const ArmLegs& robot);
+/// Numbers of all tendons as a list a section.
+template <class Arms>
+Value by_end_section(const Arms& robot, std::span<const double> values) {
+  Value list = Value::list();
+  std::size_t first = 0;
+  for (const std::size_t count : tendon_counts(robot)) {
+    list.push_back(Value(values.subspan(first, count)));
+    first += count;
+  }
+  return list;
+}
 
 /// What a tendon may be held at [N, m]: of questions, and of rows, which put other numbers in their place.
 constexpr Range range_of(TendonHeld held) {
@@ -27,77 +94,64 @@ constexpr Range range_of(TendonHeld held) {
 }
 /// `tensions` and `changes` of a question, or of a point of a path: each tendon is held by one of them. What
 /// neither names is loose where changes are not given, else as long as at rest.
-std::vector<TendonCommand> read_arm_commands(const Arm& arm, Reader& place);
-/// The same where a section has as many tendons as `counts` says: of a platform, sections of leg 0 first.
+/// @param counts of tendons by section
 std::vector<TendonCommand> read_arm_commands(const std::vector<std::size_t>& counts, Reader& place);
 /// Of every tendon how fast what holds it changes [N/s] or [m/s]: those of each section, 0 where none is
 /// given.
 std::vector<double> read_arm_motions(const Arm& arm, const Reader& list);
-/// How many tendons end at each section.
-std::vector<std::size_t> tendons_by_section(const Arm& arm);
 /// Loads of a question, or of a point of a path.
 /// @param load what holds where they are not given
-ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load = {});
-/// `distributed`, or `distributed_following`: a force along a backbone [N/m].
-std::array<double, 3> read_along(const Reader& along);
-/// Where a load acts on a backbone of this length [m].
-double read_place_along(Reader& load, double length);
+template <class Arms>
+typename ArmTypes<Arms>::Load read_arm_load(const Arms& robot, Reader& place,
+                                            typename ArmTypes<Arms>::Load load = {});
 /// `model`, `order`, `elements`, `accuracy` and the bound on iterations.
-ArmOptions read_arm_options(Question& context);
+/// @{
+ArmOptions read_arm_options(Question& context, const Arm&);
+ArmOptions read_arm_options(Question& context, const ArmLegs&);
+/// @}
 /// `start`: `last`, where the workspace is.
-/// @param shape of questions where it may be a shape, too: mean curvatures of equal parts, which stay there
-void read_arm_start(Question& context, ArmOptions& options,
-                    std::vector<std::array<double, 3>>* shape = nullptr);
+void read_arm_start(Question& context, ArmOptions& options);
+/// The mean curvatures of equal parts of a backbone, at which a search may begin.
+std::vector<std::array<double, 3>> read_curvatures(const Reader& list, std::string_view whose);
 /// `pose`, or `position` and `direction`, of a tip or a platform.
-ArmTarget read_arm_target(Question& context);
-
-struct ArmWanted {
-  Wants words;
-  int samples = 0;  ///< of `shape`
-};
-
-/// A question of an equilibrium under what holds the tendons.
-struct ArmForward {
-  ArmOptions options;
-  std::vector<TendonCommand> commands;
-  ArmLoad load;
-  std::optional<Until<Spatial>> until;
-  bool wants_all = false;
-  ArmWanted wanted;
-};
-ArmForward read_arm_forward(ArmContext& context);
-
-/// `steps` to each point of a path, whose `list` has so many.
-int read_path_steps(Reader& query, const Reader& list, std::size_t points);
+ArmTarget read_arm_target(Question& context, bool is_planar);
 
 /// @name In files of their own
 /// @{
+template <class Arms>
 void answer_arms_track(Context& context);
+template <class Arms>
+void answer_arms_describe(Context& context);
 void answer_arms_identify(Context& context);
-void answer_arm_describe(Context& context);
 /// @}
 
-/// @name As `describe` has them
+/// Where the tip, or the platform, is, and what tendons do: of an answer, a row of a path, a solution.
 /// @{
-Value section_value(const ArmSection& section);
-Value tendon_value(const ArmTendon& tendon);
+void put_arm_numbers(Value& answer, const Arm& arm, const ArmState& state);
+void put_arm_numbers(Value& answer, const ArmLegs& robot, const ArmLegsState& state);
 /// @}
-
-/// Numbers of all tendons as a list a section.
-Value by_end_section(const Arm& arm, std::span<const double> values);
-Value by_end_section(const std::vector<std::size_t>& counts, std::span<const double> values);
-/// Lines and discs of arms, as shapes answer them.
-struct ArmPicture {
-  Value backbones = Value::list(), curvatures = Value::list(), tendons = Value::list(), discs = Value::list();
-  /// In the plane of x and y: points of two numbers, the curvature that turns to the right; no discs.
-  bool is_planar = false;
-
-  /// @param unknown_radius of discs of which it is not known [m]
-  void add(const Arm& arm, const ArmWorkspace& work, int samples, double unknown_radius);
-};
-/// `places`, `backbones`, `tendons` and the rest of a shape, of the equilibrium in the workspace.
-void put_arm_shape(ArmContext& context, int samples);
+/// Whether nothing was solved of it.
+template <class State>
+bool is_refused(const State& state) {
+  return state.report.status == Status::bad_input || state.report.status == Status::unsupported ||
+         state.tensions.empty();
+}
+/// All that is told of an equilibrium always, or of the best iterate.
+/// @param report of the question
+template <class Arms>
+void put_arm_state(ArmContextOf<Arms>& context, const typename ArmTypes<Arms>::State& state,
+                   const Report& report);
+/// What is wanted of the equilibrium in the workspace.
+template <class Arms>
+void put_arm_wants(ArmContextOf<Arms>& context, const typename ArmTypes<Arms>::State& state, Wants words,
+                   int samples);
+/// `backbones`, `tendons` and the rest of a shape, of the equilibrium in the workspace.
+/// @{
+void put_arm_shape(ArmContext& context, const ArmState& state, int samples);
+void put_arm_shape(ArmLegsContext& context, const ArmLegsState& state, int samples);
+/// @}
 /// Whether friction is known of any of its tendons.
 bool has_friction(const Arm& arm);
+bool has_friction(const ArmLegs& robot);
 
 }  // namespace sinew::inline v1

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "kinematics/arms/arm_lanes.hpp"
-#include "query/arms/arms.hpp"
+#include "query/arms/arm_question.hpp"
 #include "query/batch/row_places.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/arm.hpp"
@@ -51,7 +51,7 @@ std::optional<ArmOutput> output_of(const std::string& path, const Arm& arm) {
   unsigned a = 0, b = 0;
   if (indices("tip.position[%u]%n", &a, nullptr) && a < 3) return ArmOutput{ArmOutput::position, a};
   if (indices("tip.quaternion[%u]%n", &a, nullptr) && a < 4) return ArmOutput{ArmOutput::quaternion, a};
-  const auto counts = tendons_by_section(arm);
+  const auto counts = tendon_counts(arm);
   const std::array<std::pair<const char*, ArmOutput::Of>, 3> lists{
       {{"tensions[%u][%u]%n", ArmOutput::tensions},
        {"changes[%u][%u]%n", ArmOutput::changes},
@@ -218,16 +218,16 @@ class ArmSampler {
 
 SamplerKind plan_arms(Context& of_robot, const RowPlaces& rows) {
   if (of_robot.ask != Ask::forward) return {};
-  ArmContext context(of_robot);
-  const ArmForward read = read_arm_forward(context);
-  const bool is_plain = context.is_read() && !context.query.has("start") && !read.until && !read.wants_all &&
-                        read.wanted.words == usual_of(context.ask);
+  ArmQuestion<Arm> read(of_robot);
+  read.read();
+  const bool is_plain = read.is_read() && !read.query.has("start") && !read.until && !read.wants_all &&
+                        read.words == usual_of(read.ask);
   if (!is_plain || !rows.are_within({"tensions", "changes", "wrench"})) return {};
-  AskedArm asked{.arm = context.robot, .options = read.options, .load = read.load, .is_path = rows.is_path()};
-  std::vector<std::size_t> next(context.robot.sections.size());
+  AskedArm asked{.arm = read.robot, .options = read.options.arm, .load = read.load, .is_path = rows.is_path()};
+  std::vector<std::size_t> next(read.robot.sections.size());
   for (std::size_t i = 0; i < read.commands.size(); ++i) {
     const auto& [held, value] = read.commands[i];
-    const auto section = static_cast<std::size_t>(context.robot.tendons[i].section());
+    const auto section = static_cast<std::size_t>(read.robot.tendons[i].section());
     const std::string_view list = held == TendonHeld::tension ? "tensions" : "changes";
     asked.held.push_back(held);
     asked.tendons.push_back(

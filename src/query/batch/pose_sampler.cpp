@@ -233,28 +233,19 @@ class PoseSampler {
 
 SamplerKind plan_poses(Context& context, const RowPlaces& rows) {
   if (!has_velocity_batch(context.robot)) return {};
-  AskedPose at;
-  Branch branch;
-  KinematicWants wanted;
-  bool is_plain = !context.max_iterations;
-  if (context.ask == Ask::inverse) {
-    KinematicInverse read = read_kinematic_inverse(context);
-    is_plain = is_plain && read.start.empty() && !read.wants_all;
-    at = std::move(read.at), branch = std::move(read.branch), wanted = std::move(read.wanted);
-  } else if (context.ask == Ask::velocity) {
-    KinematicConfiguration read = read_kinematic_configuration(context);
-    is_plain = is_plain && !read.given.inputs;
-    at = std::move(read.given.at), branch = std::move(read.given.branch), wanted = std::move(read.wanted);
-  } else {
-    return {};
-  }
-  is_plain = is_plain && context.is_read() && branch.curvature.empty() && wanted.twist.empty() &&
-             !wanted.along && wanted.words == usual_of(context.ask);
+  if (context.ask != Ask::inverse && context.ask != Ask::velocity) return {};
+  KinematicQuestion read(context);
+  read.read();
+  Branch& branch = read.given.branch;
+  const bool is_plain = read.is_read() && !read.max_iterations && read.near_inputs.empty() &&
+                        !read.wants_all && !read.given.inputs && branch.curvature.empty() &&
+                        read.wanted.twist.empty() && !read.wanted.along &&
+                        read.wanted.words == usual_of(read.ask);
   AskedPoses asked{.robot = context.robot,
                    .is_inverse = context.ask == Ask::inverse,
                    .bending = std::move(branch.bending),
                    .elbow = std::move(branch.elbow)};
-  if (!is_plain || !put_pose(at, rows, asked)) return {};
+  if (!is_plain || !put_pose(read.given.at, rows, asked)) return {};
   for (const std::string& output : rows.outputs()) {
     const auto found = output_of(output, asked, static_cast<std::size_t>(leg_count(context.robot)));
     if (!found) return {};

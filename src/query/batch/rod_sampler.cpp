@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "query/batch/row_places.hpp"
-#include "query/rods/rods.hpp"
+#include "query/rods/rod_question.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 
@@ -93,9 +93,10 @@ class RodSampler {
 
 SamplerKind plan_rods(Context& context, const RowPlaces& rows) {
   if (context.ask != Ask::forward || !has_equilibrium_batch(context.robot)) return {};
-  const RodForward read = read_rod_forward(context);
+  RodQuestion read(context);
+  read.read();
   const EquilibriumOptions& options = read.at.options;
-  const bool is_plain = context.is_read() && !context.max_iterations && !context.names_start &&
+  const bool is_plain = read.is_read() && !context.max_iterations && !read.names_start &&
                         !options.gravity && !read.until && !read.wants_all &&
                         read.wanted.words == usual_of(context.ask);
   if (!is_plain || !rows.are_within({"inputs"})) return {};

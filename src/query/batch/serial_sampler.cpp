@@ -127,19 +127,19 @@ class SerialSampler {
 }  // namespace
 
 SamplerKind plan_sections(Context& of_robot, const RowPlaces& rows) {
-  SerialContext context(of_robot);
-  const auto is_extensible = std::ranges::any_of(context.robot.sections, &Section::is_extensible);
-  if (context.ask != Ask::forward || is_extensible) return {};
-  const SerialForward read = read_serial_forward(context);
-  const bool is_plain = context.is_read() && !context.max_iterations && !read.shape.changes &&
-                        read.pay_out.empty() && read.wanted.words == usual_of(context.ask);
+  SerialQuestion read(of_robot);
+  const auto is_extensible = std::ranges::any_of(read.robot.sections, &Section::is_extensible);
+  if (read.ask != Ask::forward || is_extensible) return {};
+  read.read();
+  const bool is_plain = read.is_read() && !read.max_iterations && !read.shape.changes &&
+                        read.pay_out.empty() && read.wanted.words == usual_of(read.ask);
   if (!is_plain || !rows.are_within({"configuration"})) return {};
-  AskedSections asked{.robot = context.robot, .model = read.model};
+  AskedSections asked{.robot = read.robot, .model = read.model};
   for (std::size_t m = 0; m < read.shape.given.size(); ++m) {
     const auto section = rows.numbers(joined("configuration", m), read.shape.given[m], bend_range);
     asked.configuration.push_back({section[0], section[1]});
   }
-  asked.configuration.resize(context.robot.sections.size());
+  asked.configuration.resize(read.robot.sections.size());
   for (const std::string& output : rows.outputs()) {
     if (const auto tendon = tendon_of(output, asked.robot))
       asked.outputs.emplace_back(*tendon);

@@ -14,7 +14,6 @@ namespace sinew::inline v1::chains {
 template <class Space>
 struct Load {
   Wrench<Space> wrench = Wrench<Space>::Zero();
-  std::optional<Until<Space>> until;
   Wants wanted;
   std::vector<double> twist;        ///< with `velocity`
   std::optional<double> threshold;  ///< of joints, beyond which the linear model is not to be trusted [rad]
@@ -25,7 +24,6 @@ template <class Space>
 Load<Space> read_load(Context& context) {
   Load<Space> load;
   if (const auto wrench = context.query.optional("wrench")) load.wrench = read_wrench<Space>(*wrench);
-  load.until = read_until<Space>(context);
   load.wanted = read_wants_of_loads(context);
   load.twist = read_twist<Space>(context, load.wanted);
   if (const auto threshold = context.query.optional("posture_threshold"))

@@ -8,16 +8,29 @@ namespace sinew::inline v1::chains {
 namespace {
 
 template <class Space>
-struct ChainCurves {
-  Branch branch;
-  AnyPose at;                               ///< where tendons are set, or the search begins
-  std::vector<TendonConstraint> hold = {};  ///< tensions or lengths; of set_at none
-  bool holds_lengths = false;
-  Wrench<Space> wrench = Wrench<Space>::Zero();
-  ChainCurveOptions<Space> how = {};
+struct ChainCurves : ChainContext<Space> {
+  using ChainContext<Space>::ChainContext;
+  using ChainContext<Space>::chains;
+  using Question::query;
 
-  static ChainCurves read(ChainContext<Space>& context);
-  static void answer(ChainContext<Space>& context, const ChainCurves& asked);
+  void read();
+  void solve();
+  void tell();
+
+ private:
+  void read_target();
+  Report begin();
+
+  Branch branch_ = {};
+  AnyPose at_ = home(this->robot);           ///< where tendons are set, or the search begins
+  std::vector<TendonConstraint> hold_ = {};  ///< tensions or lengths; of set_at none
+  bool holds_lengths_ = false;
+  Wrench<Space> wrench_ = Wrench<Space>::Zero();
+  ChainCurveOptions<Space> how_ = {};
+
+  ChainState<Space> state_ = {};
+  Report begun_ = {};
+  std::vector<ChainCurve<Space>> curves_ = {};
 };
 
 /// Tensions or lengths of the tendons, if given.
@@ -30,76 +43,79 @@ std::vector<TendonConstraint> read_hold(Reader& query, std::size_t legs) {
 }
 
 template <class Space>
-ChainCurves<Space> ChainCurves<Space>::read(ChainContext<Space>& context) {
-  Reader& query = context.query;
-  const std::size_t legs = context.chains.legs.size();
-  ChainCurves asked{read_branch(context), home(context.robot)};
+void ChainCurves<Space>::read() {
+  branch_ = read_branch(*this);
   for (const char* key : {"from", "poses", "angles", "objective", "rk4_steps"})
     if (const auto given = query.optional(key))
       given->fail("ambiguous", "a curve of equilibria (to) begins where tendons are set; remove this");
-  asked.hold = read_hold(query, legs);
+  hold_ = read_hold(query, chains.legs.size());
   auto set_at = query.optional("set_at"), start = query.optional("start");
   const auto hold_word = query.optional("hold");
-  if (asked.hold.empty() == !set_at && context.errors.empty())
+  if (hold_.empty() == !set_at && this->errors.empty())
     query.fail(set_at ? "ambiguous" : "missing_key",
                "give one of tensions, lengths or set_at: a pose at which the tendons are set without load");
   if (hold_word && !set_at) hold_word->fail("no_effect", "says what set_at leaves held; remove it");
   if (start && set_at) start->fail("no_effect", "is where tensions or lengths begin from; remove it");
-  asked.holds_lengths = hold_word && hold_word->choice({"tension", "length"}) == "length";
+  holds_lengths_ = hold_word && hold_word->choice({"tension", "length"}) == "length";
   for (auto* given : {&set_at, &start})
-    if (*given) asked.at = read_pose(context, std::move(**given));
-  if (const auto wrench = query.optional("wrench")) asked.wrench = read_wrench<Space>(*wrench);
+    if (*given) at_ = read_pose(*this, std::move(**given));
+  if (const auto wrench = query.optional("wrench")) wrench_ = read_wrench<Space>(*wrench);
+  read_target();
+  read_extent(*this, how_);
+}
+
+/// What changes along the curve: `to`.
+template <class Space>
+void ChainCurves<Space>::read_target() {
   Reader to = query.required("to", "{wrench, and tensions or lengths}: what changes along the curve");
   const auto wrench = to.optional("wrench");
-  if (wrench) asked.how.added_wrench = read_wrench<Space>(*wrench) - asked.wrench;
-  asked.how.hold = read_hold(to, legs);
+  if (wrench) how_.added_wrench = read_wrench<Space>(*wrench) - wrench_;
+  how_.hold = read_hold(to, chains.legs.size());
   for (const char* key : {"inputs", "pose", "x", "y", "phi", "position", "quaternion"})
     if (const auto given = to.optional(key))
       given->fail("not_available", "on chains a curve leads to a wrench, tensions or lengths; remove this");
   if (to.is(Node::Kind::map)) {
-    if (!wrench && asked.how.hold.empty())
+    if (!wrench && how_.hold.empty())
       to.fail("missing_key", "give wrench, tensions or lengths: what changes along the curve");
     to.close();
   }
-  read_extent(context, asked.how);
-  return asked;
 }
 
-/// The equilibrium where the curve begins.
+/// To the equilibrium where the curve begins.
 template <class Space>
-Report begin(Context& context, ChainLegs<Space>& robot, const ChainCurves<Space>& asked,
-             ChainState<Space>& state, ChainWork& work) {
+Report ChainCurves<Space>::begin() {
+  ChainWork& memory = work_of(*this);
   ChainOptions options;
-  if (context.max_iterations) options.max_iterations = *context.max_iterations;
-  const Report report =
-      asked.hold.empty()
-          ? rest_at(context, robot, asked.at, asked.branch, asked.holds_lengths, state)
-          : unloaded(robot,
-                     {asked.at, arcs_at(twin_of(context), asked.at, asked.branch.options()), asked.hold},
-                     state, work, options);
-  if (!is_solved(report)) return report;
-  return equilibrium(robot, std::vector(state.hold), asked.wrench, state, work, options);
+  if (this->max_iterations) options.max_iterations = *this->max_iterations;
+  const Report rest =
+      hold_.empty()
+          ? rest_at(*this, chains, at_, branch_, holds_lengths_, state_)
+          : unloaded(chains, {at_, arcs_at(twin_of(*this), at_, branch_.options()), hold_}, state_, memory,
+                     options);
+  if (!is_solved(rest)) return rest;
+  return equilibrium(chains, std::vector(state_.hold), wrench_, state_, memory, options);
 }
 
 template <class Space>
-void ChainCurves<Space>::answer(ChainContext<Space>& context, const ChainCurves& asked) {
-  ChainLegs<Space>& robot = context.chains;
-  ChainState<Space> state;
-  ChainWork& work = work_of(context);
-  const Report report = begin(context, robot, asked, state, work);
-  context.report(report);
-  if (!is_solved(report)) return;
-  const auto curves = chain_curves(robot, state, asked.how, work);
-  if (curves.empty())
-    return context.query.fail(
-        "no_effect",
-        "nothing changes between the beginning and `to`, or that holds other tendons, or "
-        "lengths that no joints allow; give other values");
-  put_curves(context, curves, [&](const ChainCurvePoint<Space>& point) {
+void ChainCurves<Space>::solve() {
+  begun_ = begin();
+  if (!is_solved(begun_)) return;
+  curves_ = chain_curves(chains, state_, how_, work_of(*this));
+  if (curves_.empty())
+    query.fail("no_effect",
+               "nothing changes between the beginning and `to`, or that holds other tendons, or "
+               "lengths that no joints allow; give other values");
+}
+
+template <class Space>
+void ChainCurves<Space>::tell() {
+  this->report(begun_);
+  if (curves_.empty()) return;
+  put_curves(*this, curves_, [&](const ChainCurvePoint<Space>& point) {
     Value tensions = Value::list();
     for (const ChainLegState& leg : point.state.legs) tensions.push_back(leg.tension);
     return Value{{"pose", pose_value(AnyPose(Space::tidy(point.state.pose)))},
-                 {"inputs", Value(inputs_of(twin_of(context), robot, point.state))},
+                 {"inputs", Value(inputs_of(twin_of(*this), chains, point.state))},
                  {"tensions", std::move(tensions)}};
   });
 }
@@ -109,6 +125,6 @@ void ChainCurves<Space>::answer(ChainContext<Space>& context, const ChainCurves&
 
 namespace sinew::inline v1 {
 
-void answer_chains_curves(Context& context) { chains::handle_chains<chains::ChainCurves>(context); }
+void answer_chains_curves(Context& context) { chains::answer_chains<chains::ChainCurves>(context); }
 
 }  // namespace sinew::inline v1

@@ -71,34 +71,38 @@ HeldInputs held_of(Context& context, const ChainLegs<Space>& robot, const Sensin
 }
 
 template <class Space>
-struct ChainSensing {
-  SensingQuery at;
-  Load<Space> load;  ///< of which only what is wanted is given
+struct ChainSensing : ChainContext<Space> {
+  using ChainContext<Space>::ChainContext;
+  using ChainContext<Space>::chains;
 
-  static ChainSensing read(ChainContext<Space>& context) {
-    ChainSensing asked{
-        read_sensing(context, context.chains.legs.size(), static_cast<std::size_t>(Space::dof)), {}};
-    asked.load.wanted = read_wants_of_loads(context);
-    asked.load.twist = read_twist<Space>(context, asked.load.wanted);
-    if (context.max_iterations) asked.load.options.max_iterations = *context.max_iterations;
-    return asked;
+  void read() {
+    at_ = read_sensing(*this, chains.legs.size(), static_cast<std::size_t>(Space::dof));
+    load_.wanted = read_wants_of_loads(*this);
+    load_.twist = read_twist<Space>(*this, load_.wanted);
+    if (this->max_iterations) load_.options.max_iterations = *this->max_iterations;
   }
 
-  static void answer(ChainContext<Space>& context, const ChainSensing& asked) {
-    ChainLegs<Space>& robot = context.chains;
-    const Load<Space>& load = asked.load;
-    ChainState<Space> state;
-    ChainWork& work = work_of(context);
-    const HeldInputs held = held_of(context, robot, asked.at);
-    SensedLoad<Space> sensed{unloaded(robot, held, state, work, load.options), {}};
-    if (is_solved(sensed.report)) sensed = sense_wrench(robot, asked.at.measured, state, work, load.options);
-    put_equilibrium<Space>(context, robot, state, sensed.report, nullptr, load, work);
-    if (!is_solved(sensed.report)) return;
-    put_matrix<Space>(context.answer, "wrench_sensitivity", sensed.sensitivity);
-    if (asked.at.deviations.empty()) return;
-    put_matrix<Space>(context.answer, "covariance",
-                      covariance_of<Space::dof>(sensed.sensitivity, asked.at.deviations));
+  void solve() {
+    ChainWork& memory = work_of(*this);
+    sensed_.report = unloaded(chains, held_of(*this, chains, at_), state_, memory, load_.options);
+    if (is_solved(sensed_.report))
+      sensed_ = sense_wrench(chains, at_.measured, state_, memory, load_.options);
   }
+
+  void tell() {
+    put_equilibrium<Space>(*this, chains, state_, sensed_.report, nullptr, load_, work_of(*this));
+    if (!is_solved(sensed_.report)) return;
+    put_matrix<Space>(this->answer, "wrench_sensitivity", sensed_.sensitivity);
+    if (at_.deviations.empty()) return;
+    put_matrix<Space>(this->answer, "covariance",
+                      covariance_of<Space::dof>(sensed_.sensitivity, at_.deviations));
+  }
+
+ private:
+  SensingQuery at_ = {};
+  Load<Space> load_ = {};  ///< of which only what is wanted is given
+  ChainState<Space> state_ = {};
+  SensedLoad<Space> sensed_ = {};
 };
 
 }  // namespace
@@ -107,6 +111,6 @@ struct ChainSensing {
 
 namespace sinew::inline v1 {
 
-void answer_chains_sensing(Context& context) { chains::handle_chains<chains::ChainSensing>(context); }
+void answer_chains_sensing(Context& context) { chains::answer_chains<chains::ChainSensing>(context); }
 
 }  // namespace sinew::inline v1

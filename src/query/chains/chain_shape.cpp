@@ -8,81 +8,87 @@ namespace {
 
 using namespace chains;
 
-/// Which chains are to be drawn.
+/// Chains that are to be drawn.
 template <class Space>
-struct ChainDrawing {
-  Configuration at;
-  Joints<Space> joints;
-  std::optional<Wrench<Space>> wrench = {};
-  ChainOptions options = {};
+struct ChainDrawing : ChainContext<Space> {
+  using ChainContext<Space>::ChainContext;
+  using ChainContext<Space>::chains;
+  using Question::query, Question::answer;
 
-  static ChainDrawing read(ChainContext<Space>& context);
-  static void answer(ChainContext<Space>& context, const ChainDrawing& asked);
+  void read();
+  void solve();
+  void tell();
+
+ private:
+  Report rest_under();
+
+  Configuration at_ = {};
+  Joints<Space> joints_ = {};
+  std::optional<Wrench<Space>> wrench_ = {};
+  ChainOptions options_ = {};
+
+  ChainState<Space> state_ = {};
+  Report found_ = {};
 };
 
 template <class Space>
-ChainDrawing<Space> ChainDrawing<Space>::read(ChainContext<Space>& context) {
-  Reader& query = context.query;
-  Configuration at = read_configuration(context);
-  Joints<Space> joints(context, context.chains, at.branch);
-  ChainDrawing asked{std::move(at), std::move(joints)};
+void ChainDrawing<Space>::read() {
+  at_ = read_configuration(*this);
+  joints_ = read_joints(*this, chains, at_.branch);
   if (const auto wrench = query.optional("wrench")) {
-    asked.wrench = read_wrench<Space>(*wrench);
-    if (asked.joints.are_given())
+    wrench_ = read_wrench<Space>(*wrench);
+    if (joints_.are_given())
       wrench->fail("no_effect", "has no effect: the angles say how the chains are bent; remove it");
   }
-  if (context.max_iterations) asked.options.max_iterations = *context.max_iterations;
+  if (this->max_iterations) options_.max_iterations = *this->max_iterations;
   if (const auto samples = query.optional("samples"))
     samples->fail("no_effect", "has no effect: a chain is drawn by its joints; remove it");
-  if (asked.joints.are_given()) query.required("pose", "that the chains of these angles lead to");
-  if (asked.at.at.pose && asked.at.inputs)
+  if (joints_.are_given()) query.required("pose", "that the chains of these angles lead to");
+  if (at_.at.pose && at_.inputs)
     query.fail("ambiguous", "pose and inputs both say where the platform is; keep one");
-  return asked;
 }
 
 /// Rests under the wrench as `forward` has it from inputs, as `inverse` from a pose.
 template <class Space>
-Report rest_under(Context& context, ChainLegs<Space>& robot, const ChainDrawing<Space>& asked,
-                  ChainState<Space>& state) {
-  ChainWork& work = work_of(context);
-  const Wrench<Space> wrench = asked.wrench.value_or(Wrench<Space>::Zero());
-  if (!asked.at.inputs) {
-    const Report report = rest_at(context, robot, *asked.at.at.pose, asked.at.branch, true, state);
-    return report.ok() ? inverse_statics(robot, wrench, state, work, asked.options) : report;
+Report ChainDrawing<Space>::rest_under() {
+  ChainWork& memory = work_of(*this);
+  const Wrench<Space> wrench = wrench_.value_or(Wrench<Space>::Zero());
+  if (!at_.inputs) {
+    const Report rest = rest_at(*this, chains, *at_.at.pose, at_.branch, true, state_);
+    return rest.ok() ? inverse_statics(chains, wrench, state_, memory, options_) : rest;
   }
   const HeldInputs held =
-      hold_inputs(context, robot, *asked.at.inputs, asked.at.start ? asked.at.start : context.path_start());
-  const Report report = unloaded(robot, held, state, work, asked.options);
-  return is_solved(report) ? equilibrium(robot, held.hold, wrench, state, work, asked.options) : report;
+      hold_inputs(*this, chains, *at_.inputs, at_.start ? at_.start : this->path_start());
+  const Report rest = unloaded(chains, held, state_, memory, options_);
+  return is_solved(rest) ? equilibrium(chains, held.hold, wrench, state_, memory, options_) : rest;
 }
 
 template <class Space>
-void ChainDrawing<Space>::answer(ChainContext<Space>& context, const ChainDrawing& asked) {
-  ChainLegs<Space>& robot = context.chains;
-  ChainState<Space> state;
-  Report report;
-  if (asked.joints.are_given()) {
-    state.pose = std::get<typename Space::Pose>(*asked.at.at.pose);
-    report = asked.joints.at(context, robot, *asked.at.at.pose, state.legs);
-    refuse_open_legs(context, chain_rates(robot, state.pose, state.legs).closure_error);
-    if (!context.errors.empty()) return;
+void ChainDrawing<Space>::solve() {
+  if (joints_.are_given()) {
+    state_.pose = std::get<typename Space::Pose>(*at_.at.pose);
+    found_ = joints_.at(*this, chains, *at_.at.pose, state_.legs);
+    refuse_open_legs(*this, chain_rates(chains, state_.pose, state_.legs).closure_error);
   } else {
-    report = rest_under(context, robot, asked, state);
+    found_ = rest_under();
+    if (is_solved(found_)) note_stability(chains, state_, work_of(*this), found_);
   }
-  const bool is_found = is_solved(report);
-  if (is_found && !asked.joints.are_given()) note_stability(robot, state, work_of(context), report);
-  context.report(report);
-  context.remember({});
-  if (!is_found) return;
-  const AnyPose pose = Space::tidy(state.pose);
-  context.remember(pose);
-  context.answer["pose"] = pose_value(pose);
-  put_shape(context.answer, chain_shape(robot, state.pose, state.legs));
-  context.answer["frames"] = Value::list({pose_value(pose)});
+}
+
+template <class Space>
+void ChainDrawing<Space>::tell() {
+  this->report(found_);
+  this->remember({});
+  if (!is_solved(found_)) return;
+  const AnyPose pose = Space::tidy(state_.pose);
+  this->remember(pose);
+  answer["pose"] = pose_value(pose);
+  put_shape(answer, chain_shape(chains, state_.pose, state_.legs));
+  answer["frames"] = Value::list({pose_value(pose)});
 }
 
 }  // namespace
 
-void answer_chains_shape(Context& context) { handle_chains<ChainDrawing>(context); }
+void answer_chains_shape(Context& context) { answer_chains<ChainDrawing>(context); }
 
 }  // namespace sinew::inline v1

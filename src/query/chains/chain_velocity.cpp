@@ -9,6 +9,7 @@
 #include "io/reader.hpp"
 #include "kinematics/chains/chain_motion.hpp"
 #include "query/chains/chain_velocity.hpp"
+#include "query/chains/chains.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
@@ -85,43 +86,45 @@ Value legs_of(const ChainLegs<Space>& robot, std::span<const ChainLegState> legs
 }
 
 template <class Space>
-struct ChainMotion {
-  AnyPose pose;
-  Joints<Space> joints;
-  Wants wanted;
-  std::vector<double> twist;
+struct ChainMotion : ChainContext<Space> {
+  using ChainContext<Space>::ChainContext;
+  using ChainContext<Space>::chains;
+  using Question::answer;
 
-  static ChainMotion read(ChainContext<Space>& context);
-  static void answer(ChainContext<Space>& context, const ChainMotion& asked);
+  void read();
+  void tell();
+
+ private:
+  AnyPose pose_ = {};
+  Joints<Space> joints_ = {};
+  Wants wanted_ = {};
+  std::vector<double> twist_ = {};
 };
 
 template <class Space>
-ChainMotion<Space> ChainMotion<Space>::read(ChainContext<Space>& context) {
-  const AnyPose pose = read_pose(context, context.query.required("pose", "pose of the platform"));
-  Joints joints(context, context.chains, read_branch(context));
-  const Wants wanted =
-      read_wants(context, usual_of(context.ask), usual_wants | Wants{Want::velocity, Want::shape});
-  return {pose, std::move(joints), wanted, read_twist<Space>(context, wanted)};
+void ChainMotion<Space>::read() {
+  pose_ = read_pose(*this, this->query.required("pose", "pose of the platform"));
+  joints_ = read_joints(*this, chains, read_branch(*this));
+  wanted_ = read_wants(*this, usual_of(this->ask), usual_wants | Wants{Want::velocity, Want::shape});
+  twist_ = read_twist<Space>(*this, wanted_);
 }
 
 template <class Space>
-void ChainMotion<Space>::answer(ChainContext<Space>& context, const ChainMotion& asked) {
-  const auto& [pose, joints, wanted, twist] = asked;
-  ChainLegs<Space>& robot = context.chains;
+void ChainMotion<Space>::tell() {
   std::vector<ChainLegState> legs;
-  const Report report = joints.at(context, robot, pose, legs);
-  if (!report.ok()) return context.report(report);
-  const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
-  refuse_open_legs(context, velocity.rates.closure_error);
-  if (!context.errors.empty()) return;
-  context.report({});
-  if (wanted.has(Want::pose)) context.answer["pose"] = pose_value(pose);
-  put_velocity(context, velocity, twist);
-  context.answer["residual"] = velocity.report.residual;
-  if (wanted.has(Want::legs)) context.answer["legs"] = legs_of(robot, legs);
-  if (!wanted.has(Want::shape)) return;
-  put_shape(context.answer, chain_shape(robot, std::get<typename Space::Pose>(pose), legs));
-  context.answer["frames"] = Value::list({pose_value(pose)});
+  if (const Report found = joints_.at(*this, chains, pose_, legs); !found.ok()) return this->report(found);
+  const auto& pose = std::get<typename Space::Pose>(pose_);
+  const auto velocity = chain_velocity(chains, pose, legs);
+  refuse_open_legs(*this, velocity.rates.closure_error);
+  if (!this->errors.empty()) return;
+  this->report({});
+  if (wanted_.has(Want::pose)) answer["pose"] = pose_value(pose_);
+  put_velocity(*this, velocity, twist_);
+  answer["residual"] = velocity.report.residual;
+  if (wanted_.has(Want::legs)) answer["legs"] = legs_of(chains, legs);
+  if (!wanted_.has(Want::shape)) return;
+  put_shape(answer, chain_shape(chains, pose, legs));
+  answer["frames"] = Value::list({pose_value(pose_)});
 }
 
 template <class Space>
@@ -147,51 +150,52 @@ bool is_curve(Reader& query) {
 }
 
 template <class Space>
-struct ChainPath {
-  std::vector<AnyPose> poses;
-  Joints<Space> joints;
-  ChainMotionOptions options = {};
+struct ChainPath : ChainContext<Space> {
+  using ChainContext<Space>::ChainContext;
+  using ChainContext<Space>::chains;
+  using Question::query, Question::answer;
 
-  static ChainPath read(ChainContext<Space>& context);
-  static void answer(ChainContext<Space>& context, const ChainPath& asked);
+  void read();
+  void tell();
+
+ private:
+  std::vector<AnyPose> poses_ = {};
+  Joints<Space> joints_ = {};
+  ChainMotionOptions options_ = {};
 };
 
 template <class Space>
-ChainPath<Space> ChainPath<Space>::read(ChainContext<Space>& context) {
-  std::vector<AnyPose> poses = read_path(context);
-  Joints joints(context, context.chains, read_branch(context));
-  ChainPath asked{std::move(poses), std::move(joints)};
-  asked.options.objective = read_objective(context.query);
-  if (const auto steps = context.query.optional("rk4_steps"))
-    asked.options.rk4_steps = steps->integer(Range::between(1, 1000));
-  return asked;
+void ChainPath<Space>::read() {
+  poses_ = read_path(*this);
+  joints_ = read_joints(*this, chains, read_branch(*this));
+  options_.objective = read_objective(query);
+  if (const auto steps = query.optional("rk4_steps"))
+    options_.rk4_steps = steps->integer(Range::between(1, 1000));
 }
 
 template <class Space>
-void ChainPath<Space>::answer(ChainContext<Space>& context, const ChainPath& asked) {
-  const auto& [poses, joints, options] = asked;
-  ChainLegs<Space>& robot = context.chains;
+void ChainPath<Space>::tell() {
   std::vector<ChainLegState> legs;
-  Report report = joints.at(context, robot, poses.front(), legs);
+  Report found = joints_.at(*this, chains, poses_.front(), legs);
   Value rows = Value::list();
   double worst = 0;
-  for (std::size_t k = 0; k < poses.size() && report.ok(); ++k) {
-    const auto& pose = std::get<typename Space::Pose>(poses[k]);
+  for (std::size_t k = 0; k < poses_.size() && found.ok(); ++k) {
+    const auto& pose = std::get<typename Space::Pose>(poses_[k]);
     if (k > 0)
-      report = follow_least_norm(robot, std::get<typename Space::Pose>(poses[k - 1]), pose, legs, options);
-    if (!report.ok() || note_stop(context.work.stop, report)) break;
-    rows.push_back(row_value(robot, poses[k], legs));
+      found = follow_least_norm(chains, std::get<typename Space::Pose>(poses_[k - 1]), pose, legs, options_);
+    if (!found.ok() || note_stop(this->work.stop, found)) break;
+    rows.push_back(row_value(chains, poses_[k], legs));
     worst = std::max(worst, rows.back()["closure_error"].number().value_or(0));
     if (k == 0 && !(worst <= 1e-9))
-      return context.query.fail(
+      return query.fail(
           "not_closed", fmt::format("the first pose and the angles contradict each other: a leg misses "
                                     "by {:.3g} m; leave the angles out to have them solved",
                                     worst));
   }
-  context.report(report);
-  if (!report.ok()) context.answer["reached"] = {{"rows", rows.size()}};
-  context.answer["residual"] = worst;
-  context.answer["rows"] = std::move(rows);
+  this->report(found);
+  if (!found.ok()) answer["reached"] = {{"rows", rows.size()}};
+  answer["residual"] = worst;
+  answer["rows"] = std::move(rows);
 }
 
 }  // namespace
@@ -200,9 +204,9 @@ void answer_chains_track(Context& context) {
   if (is_curve(context.query))
     answer_chains_curves(context);
   else
-    handle_chains<ChainPath>(context);
+    answer_chains<ChainPath>(context);
 }
 
-void answer_chains_velocity(Context& context) { handle_chains<ChainMotion>(context); }
+void answer_chains_velocity(Context& context) { answer_chains<ChainMotion>(context); }
 
 }  // namespace sinew::inline v1

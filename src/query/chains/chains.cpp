@@ -50,176 +50,173 @@ namespace {
 
 using namespace chains;
 
-/// To the load, and on until it grows no more.
+/// Forward, inverse and statics: an equilibrium.
 template <class Space>
-void load_and_answer(Context& context, const ChainLegs<Space>& robot, ChainState<Space>& state,
-                     const ChainState<Space>& unloaded, const Load<Space>& load) {
-  ChainWork& work = work_of(context);
-  const std::vector<TendonConstraint> hold = state.hold;
-  Report report = equilibrium(robot, hold, load.wrench, state, work, load.options);
-  if (report.ok() && load.until) {
-    const ChainLoadPath path =
-        follow_load(robot, load.until->direction, load.until->limit, state, work, load.options);
-    put_growth(context.answer, path);
-    report = path.report;
-  }
-  put_equilibrium(context, robot, state, report, &unloaded, load, work);
-}
+struct ChainQuestion : ChainContext<Space> {
+  using ChainContext<Space>::ChainContext;
+  using ChainContext<Space>::chains;
+  using Question::query, Question::answer, Question::ask;
 
-/// Where the search for an equilibrium with given tensions or lengths begins.
-template <class Space>
-void answer_held(Context& context, ChainLegs<Space>& robot, const HeldInputs& held, const Load<Space>& load) {
-  ChainState<Space> state;
-  ChainWork& work = work_of(context);
-  const Report report = unloaded(robot, held, state, work, load.options);
-  if (!is_solved(report)) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-  const ChainState<Space> before = state;
-  load_and_answer(context, robot, state, before, load);
-}
-
-/// Of a pose that is held there is no unloaded one to compare with.
-void refuse_threshold(Context& context) {
-  context.query.fail("no_effect", "posture_threshold judges a load that moves the platform; remove it");
-}
-
-template <class Space>
-struct ChainStatics {
-  Branch branch;
-  Load<Space> load;
-  std::vector<TendonConstraint> hold;  ///< tensions or lengths; none where tendons are set at a pose
-  AnyPose at;                          ///< where tendons are set, or held, or the search begins
-  bool is_inverse = false, holds_lengths = false;
-
-  static ChainStatics read(ChainContext<Space>& context) {
-    Reader& query = context.query;
-    const std::size_t legs = context.chains.legs.size();
-    ChainStatics asked{read_branch(context), read_load<Space>(context), {}, home(context.robot)};
-    const Load<Space>& load = asked.load;
-    const auto tensions = query.optional("tensions"), lengths = query.optional("lengths"),
-               is_inverse = query.optional("inverse"), hold_word = query.optional("hold");
-    auto set_at = query.optional("set_at"), pose = query.optional("pose"), start = query.optional("start");
-    asked.is_inverse = is_inverse && is_inverse->boolean();
-    const int ways = (tensions ? 1 : 0) + (lengths ? 1 : 0) + (set_at ? 1 : 0) + (asked.is_inverse ? 1 : 0);
-    if (ways == 0)
-      query.fail(
-          "missing_key",
-          "give tensions, lengths or set_at: a pose at which the tendons are set without load; or inverse: "
-          "true with a pose");
-    if (ways > 1)
-      query.fail("ambiguous",
-                 "tensions, lengths, set_at and inverse each say what holds the robot; keep one");
-    if (asked.is_inverse && !pose) query.required("pose", "that the loaded platform is to have");
-    if (pose && !asked.is_inverse)
-      pose->fail("no_effect", "is asked of inverse statics only; add inverse: true");
-    if (hold_word && !set_at && !asked.is_inverse)
-      hold_word->fail("no_effect", "says what set_at or inverse leaves held; remove it");
-    if (start && !tensions && !lengths)
-      start->fail("no_effect", "is where tensions or lengths begin from; remove it");
-    if (load.until && asked.is_inverse)
-      query.fail("ambiguous", "until follows a load, inverse holds a pose; keep one");
-    if (load.threshold && asked.is_inverse) refuse_threshold(context);
-    asked.holds_lengths = hold_word && hold_word->choice({"tension", "length"}) == "length";
-    if (tensions) asked.hold = read_tensions(*tensions, legs);
-    if (lengths) asked.hold = read_lengths(*lengths, legs);
-    for (auto* given : {&set_at, &pose, &start})
-      if (*given) asked.at = read_pose(context, std::move(**given));
-    return asked;
-  }
-
-  static void answer(ChainContext<Space>& context, const ChainStatics& asked) {
-    ChainLegs<Space>& robot = context.chains;
-    const Load<Space>& load = asked.load;
-    if (!asked.hold.empty()) {
-      const HeldInputs held{asked.at, arcs_at(twin_of(context), asked.at, asked.branch.options()),
-                            asked.hold};
-      return answer_held(context, robot, held, load);
-    }
-    ChainState<Space> state;
-    const Report report = rest_at(context, robot, asked.at, asked.branch, asked.holds_lengths, state);
-    ChainWork& work = work_of(context);
-    if (!report.ok()) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-    const ChainState<Space> unloaded = state;
-    if (!asked.is_inverse) return load_and_answer(context, robot, state, unloaded, load);
-    const Report held = inverse_statics(robot, load.wrench, state, work, load.options);
-    put_equilibrium<Space>(context, robot, state, held, nullptr, load, work);
-  }
-};
-
-template <class Space>
-struct ChainForward {
-  std::vector<double> inputs;
-  Load<Space> load;
-  std::optional<AnyPose> start;
+  std::optional<Until<Space>> until = {};
   bool wants_all = false;
 
-  static ChainForward read(ChainContext<Space>& context) {
-    ChainForward asked;
-    asked.inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
-    asked.load = read_load<Space>(context);
-    asked.start = read_start(context);
-    asked.wants_all = read_all(context);
-    if (asked.wants_all && asked.load.until)
-      context.query.fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
-    return asked;
-  }
+  void read();
+  void solve();
+  void tell();
+  void tell_all();
+  std::optional<Until<Space>> read_until() { return sinew::read_until<Space>(*this); }
 
-  static void answer(ChainContext<Space>& context, const ChainForward& asked) {
-    const HeldInputs held =
-        hold_inputs(context, context.chains, asked.inputs, asked.start ? asked.start : context.path_start());
-    context.remember({});  // until the chains are found
-    if (!held.arcs.report.ok()) return context.report(held.arcs.report);
-    answer_held(context, context.chains, held, asked.load);
-    if (asked.wants_all) put_all_equilibria(context, context.chains, held, asked.inputs, asked.load);
-  }
+ private:
+  void read_statics();
+  void solve_held();
+  void bear();
+
+  /// @name What was read
+  /// @{
+  std::vector<double> inputs_ = {};  ///< of `forward`
+  std::optional<AnyPose> start_ = {};
+  Branch branch_ = {};
+  AnyPose at_ = home(this->robot);  ///< where tendons are set, or the platform is held, or the search begins
+  std::vector<TendonConstraint> hold_ = {};         ///< of `statics`: tensions or lengths
+  bool is_inverse_ = false, holds_lengths_ = false;  ///< what a pose that is held leaves to tendons
+  Load<Space> load_ = {};
+  /// @}
+
+  /// @name What was found
+  /// @{
+  HeldInputs held_ = {};
+  ChainState<Space> state_ = {};
+  std::optional<ChainState<Space>> unloaded_ = {};  ///< where simpler models begin
+  std::optional<ChainLoadPath> growth_ = {};
+  Report found_ = {};
+  /// @}
 };
 
 template <class Space>
-struct ChainInverse {
-  AnyPose at;
-  Branch branch;
-  Load<Space> load;
-  bool wants_all = false;
+void ChainQuestion<Space>::read_statics() {
+  branch_ = read_branch(*this);
+  const auto tensions = query.optional("tensions"), lengths = query.optional("lengths"),
+             inverse = query.optional("inverse"), hold_word = query.optional("hold");
+  auto set_at = query.optional("set_at"), pose = query.optional("pose"), start = query.optional("start");
+  is_inverse_ = inverse && inverse->boolean();
+  const int ways = (tensions ? 1 : 0) + (lengths ? 1 : 0) + (set_at ? 1 : 0) + (is_inverse_ ? 1 : 0);
+  if (ways == 0)
+    query.fail(
+        "missing_key",
+        "give tensions, lengths or set_at: a pose at which the tendons are set without load; or inverse: "
+        "true with a pose");
+  if (ways > 1)
+    query.fail("ambiguous",
+               "tensions, lengths, set_at and inverse each say what holds the robot; keep one");
+  if (is_inverse_ && !pose) query.required("pose", "that the loaded platform is to have");
+  if (pose && !is_inverse_)
+    pose->fail("no_effect", "is asked of inverse statics only; add inverse: true");
+  if (hold_word && !set_at && !is_inverse_)
+    hold_word->fail("no_effect", "says what set_at or inverse leaves held; remove it");
+  if (start && !tensions && !lengths)
+    start->fail("no_effect", "is where tensions or lengths begin from; remove it");
+  holds_lengths_ = hold_word && hold_word->choice({"tension", "length"}) == "length";
+  if (tensions) hold_ = read_tensions(*tensions, chains.legs.size());
+  if (lengths) hold_ = read_lengths(*lengths, chains.legs.size());
+  for (auto* given : {&set_at, &pose, &start})
+    if (*given) at_ = read_pose(*this, std::move(**given));
+}
 
-  static ChainInverse read(ChainContext<Space>& context) {
-    auto pose = context.query.required("pose", "pose of the platform");
-    ChainInverse asked{read_pose(context, std::move(pose)), read_branch(context), read_load<Space>(context)};
-    if (asked.load.until)
-      context.query.fail("ambiguous", "until follows a load, inverse holds a pose; leave until out");
-    if (asked.load.threshold) refuse_threshold(context);
-    asked.wants_all = read_all(context);
-    return asked;
+template <class Space>
+void ChainQuestion<Space>::read() {
+  if (ask == Ask::forward) {
+    inputs_ = read_inputs(*this, query.required("inputs", "in leg order"));
+    start_ = read_start(*this);
+  } else if (ask == Ask::inverse) {
+    at_ = read_pose(*this, query.required("pose", "pose of the platform"));
+    branch_ = read_branch(*this);
+    is_inverse_ = holds_lengths_ = true;
+  } else {
+    read_statics();
   }
+  load_ = read_load<Space>(*this);
+  if (ask == Ask::statics)
+    until = read_until();
+  else
+    read_until_or_all(*this);
+  if (!is_inverse_) return;
+  if (until) query.fail("ambiguous", "until follows a load, inverse holds a pose; leave until out");
+  if (load_.threshold)
+    query.fail("no_effect", "posture_threshold judges a load that moves the platform; remove it");
+}
 
-  static void answer(ChainContext<Space>& context, const ChainInverse& asked) {
-    ChainLegs<Space>& robot = context.chains;
-    const Load<Space>& load = asked.load;
-    ChainState<Space> state;
-    Report report = rest_at(context, robot, asked.at, asked.branch, true, state);
-    ChainWork& work = work_of(context);
-    if (report.ok()) report = inverse_statics(robot, load.wrench, state, work, load.options);
-    put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-    if (is_solved(report)) context.answer["inputs"] = Value(inputs_of(twin_of(context), robot, state));
-    if (asked.wants_all) put_all_inverses(context, robot, asked.at, asked.branch, load);
+/// To the load from where there is none, and on until it grows no more.
+template <class Space>
+void ChainQuestion<Space>::bear() {
+  ChainWork& memory = work_of(*this);
+  unloaded_ = state_;
+  const std::vector<TendonConstraint> hold = state_.hold;
+  found_ = equilibrium(chains, hold, load_.wrench, state_, memory, load_.options);
+  if (!found_.ok() || !until) return;
+  growth_ = follow_load(chains, until->direction, until->limit, state_, memory, load_.options);
+  found_ = growth_->report;
+}
+
+template <class Space>
+void ChainQuestion<Space>::solve_held() {
+  found_ = unloaded(chains, held_, state_, work_of(*this), load_.options);
+  if (is_solved(found_)) bear();
+}
+
+template <class Space>
+void ChainQuestion<Space>::solve() {
+  if (ask == Ask::forward) {
+    held_ = hold_inputs(*this, chains, inputs_, start_ ? start_ : this->path_start());
+    this->remember({});  // until the chains are found
+    if (held_.arcs.report.ok()) solve_held();
+  } else if (!hold_.empty()) {
+    held_ = {at_, arcs_at(twin_of(*this), at_, branch_.options()), hold_};
+    solve_held();
+  } else {
+    found_ = rest_at(*this, chains, at_, branch_, holds_lengths_, state_);
+    if (!found_.ok()) return;
+    if (is_inverse_)
+      found_ = inverse_statics(chains, load_.wrench, state_, work_of(*this), load_.options);
+    else
+      bear();
   }
-};
+}
+
+template <class Space>
+void ChainQuestion<Space>::tell() {
+  if (ask == Ask::forward && !held_.arcs.report.ok()) return this->report(held_.arcs.report);
+  if (growth_) put_growth(answer, *growth_);
+  put_equilibrium<Space>(*this, chains, state_, found_, unloaded_ ? &*unloaded_ : nullptr, load_,
+                         work_of(*this));
+  if (ask == Ask::inverse && is_solved(found_))
+    answer["inputs"] = Value(inputs_of(twin_of(*this), chains, state_));
+}
+
+template <class Space>
+void ChainQuestion<Space>::tell_all() {
+  if (ask == Ask::inverse)
+    put_all_inverses(*this, chains, at_, branch_, load_);
+  else if (held_.arcs.report.ok())
+    put_all_equilibria(*this, chains, held_, inputs_, load_);
+}
 
 void answer_statics(Context& context) {
   if (context.query.has("measured_tensions"))
     answer_chains_sensing(context);
   else
-    handle_chains<ChainStatics>(context);
+    answer_chains<ChainQuestion>(context);
 }
 
 }  // namespace
 
 constexpr Handlers chain_handlers{.robots = "pseudo-rigid chains",
                                   .wants = equilibrium_wants,
-                                  .answers = {.forward = handle_chains<ChainForward>,
-                                              .inverse = handle_chains<ChainInverse>,
+                                  .answers = {.forward = answer_chains<ChainQuestion>,
+                                              .inverse = answer_chains<ChainQuestion>,
                                               .velocity = answer_chains_velocity,
                                               .shape = answer_chains_shape,
                                               .statics = answer_statics,
                                               .track = answer_chains_track,
-                                              .describe = tell<describe_platform>}};
+                                              .describe = describe_platform}};
 
 }  // namespace sinew::inline v1

@@ -6,6 +6,7 @@
 #include "kinematics/chains/chain_analysis.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
+#include "query/questions.hpp"
 
 namespace sinew::inline v1 {
 
@@ -28,17 +29,18 @@ using Wrench = Vec<double, Space::dof>;
 template <class Space>
 struct ChainContext : Context {
   ChainLegs<Space> chains;  ///< the robot's: a copy, into which directions of motors go that a question gives
-  explicit ChainContext(Context& context) : Context(context), chains(chains_of<Space>(context.robot)) {}
+  explicit ChainContext(const Context& context)
+      : Context(context),
+        chains(chains_of<Space>(context.robot)) {}
 };
 
-/// The handler of a question in both spaces: `Asked<Space>` is what is read of it, with who reads and who
-/// answers it.
+/// A question in the plane or in space.
 template <template <class> class Asked>
-void handle_chains(Context& context) {
+void answer_chains(Context& context) {
   if (context.robot.planar_chains())
-    handle<Asked<Planar>::read, Asked<Planar>::answer>(context);
+    answer_question<Asked<Planar>>(context);
   else
-    handle<Asked<Spatial>::read, Asked<Spatial>::answer>(context);
+    answer_question<Asked<Spatial>>(context);
 }
 
 /// Angles per leg, from the first sprung joint; before them the direction of the first link where a motor
@@ -90,35 +92,35 @@ Report rest_at(const Context& context, ChainLegs<Space>& robot, const AnyPose& p
 
 /// Angles as given, or a branch on which chains are at rest.
 template <class Space>
-class Joints {
- public:
-  Joints(Context& context, ChainLegs<Space>& robot, Branch branch) : branch_(std::move(branch)) {
-    const auto angles = context.query.optional("angles");
-    if (!angles) return;
-    given_ = read_angles(*angles, robot);
-    if (!branch_.is_default())
-      context.query.fail("ambiguous",
-                         "bending, curvature and elbow choose among solutions; the angles are given");
-  }
+struct Joints {
+  Branch branch = {};
+  std::optional<std::vector<ChainLegState>> given = {};
 
-  bool are_given() const { return given_.has_value(); }
+  bool are_given() const { return given.has_value(); }
 
-  Report at(Context& context, ChainLegs<Space>& robot, const AnyPose& pose,
+  Report at(const Context& context, ChainLegs<Space>& robot, const AnyPose& pose,
             std::vector<ChainLegState>& legs) const {
-    if (given_) {
-      legs = *given_;
+    if (given) {
+      legs = *given;
       return {};
     }
     ChainState<Space> state;
-    const Report report = rest_at(context, robot, pose, branch_, false, state);
+    const Report report = rest_at(context, robot, pose, branch, false, state);
     legs = std::move(state.legs);
     return report;
   }
-
- private:
-  Branch branch_;
-  std::optional<std::vector<ChainLegState>> given_;
 };
+template <class Space>
+Joints<Space> read_joints(Context& context, ChainLegs<Space>& robot, Branch branch) {
+  Joints<Space> joints{std::move(branch)};
+  const auto angles = context.query.optional("angles");
+  if (!angles) return joints;
+  joints.given = read_angles(*angles, robot);
+  if (!joints.branch.is_default())
+    context.query.fail("ambiguous",
+                       "bending, curvature and elbow choose among solutions; the angles are given");
+  return joints;
+}
 
 /// Notes it where angles that were given do not lead to the pose.
 void refuse_open_legs(Context& context, double closure_error);

@@ -7,6 +7,7 @@
 #include "io/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "query/identify/identification.hpp"
+#include "query/questions.hpp"
 #include "sinew/analysis/identify.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
@@ -161,48 +162,50 @@ Value by_row(const Identification& done, const std::vector<double>& computed) {
   return list;
 }
 
-struct IdentifyQuestion {
-  std::optional<MeasuredRows> rows;  ///< there are some, where nothing was wrong
-  IdentificationRequest request;
+/// A fit is found and told at once: what of it there is decides what is said.
+struct ArmFit : ArmContext {
+  using ArmContext::ArmContext;
+
+  void read() {
+    rows = read_rows(*this);
+    request = read_request(*this, rows);
+  }
+  void tell();
+
+  std::optional<MeasuredRows> rows = {};  ///< there are some, where nothing was wrong
+  IdentificationRequest request = {};
 };
 
-IdentifyQuestion read_identify(ArmContext& context) {
-  IdentifyQuestion asked{read_rows(context), {}};
-  asked.request = read_request(context, asked.rows);
-  return asked;
-}
-
-void answer_identify(ArmContext& context, const IdentifyQuestion& asked) {
-  const MeasuredArm arm = measured(context.robot);
-  const auto done = run_identification(arm, *asked.rows, asked.request);
+void ArmFit::tell() {
+  const MeasuredArm arm = measured(robot);
+  const auto done = run_identification(arm, *rows, request);
   if (!done) {
-    context.errors = done.error();
+    errors = done.error();
     return;
   }
-  Value& answer = context.answer;
   answer["status"] = to_string(done->found.report.status);
   std::string why = why_incomplete(*done);
   if (!why.empty() && done->found.report.ok()) answer["status"] = to_string(Status::stopped);
-  context.add_message(why);
+  add_message(why);
   if (is_clear(done->agrees_best) && !done->is_mapped)
-    context.add_message(
+    add_message(
         fmt::format("the rows agree best with {} ({:.2f}, as they are {:.2f}); map: true takes "
                     "them so",
                     words_of(done->agrees_best), done->agrees_best.agreement, done->agrees_best.as_given));
   for (const std::string& remark : remarks_of(arm, done->rows, done->parameters.size()))
-    context.add_message(remark);
+    add_message(remark);
   put_identification(*done, answer);
-  const auto computed = predict_markers(done->found.arm, done->rows, asked.request.model, asked.request.stop);
+  const auto computed = predict_markers(done->found.arm, done->rows, request.model, request.stop);
   if (computed) answer["by_row"] = by_row(*done, *computed);
   if (!is_worth_keeping(*done)) return;
   if (const auto file = fitted_file(*done, "rows of a question"))
     answer["file"] = *file;
   else
-    context.add_message(file.error().front().message);
+    add_message(file.error().front().message);
 }
 
 }  // namespace
 
-void answer_arms_identify(Context& context) { handle<read_identify, answer_identify>(context); }
+void answer_arms_identify(Context& context) { answer_question<ArmFit>(context); }
 
 }  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-/// Handlers of the queries that solve: forward, inverse, velocity, shape.
+/// forward, inverse, velocity and shape of robots whose legs bear no load.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -6,8 +6,8 @@
 #include "query/batch/sampler.hpp"
 #include "query/kinematic/kinematics.hpp"
 #include "query/loads.hpp"
+#include "query/questions.hpp"
 #include "sinew/analysis/shape.hpp"
-#include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -142,32 +142,6 @@ void put_wanted(Context& context, const KinematicWants& wanted, const Configurat
   if (wanted.along) put_type_2_distance(context, *wanted.along, given, at.pose);
 }
 
-/// Every assembly mode of the inputs; the one nearest to the start stands for the answer.
-void put_all_modes(Context& context, const KinematicWants& wanted, const Configuration& given,
-                   const AnyPose& start) {
-  const AssemblyModes modes = assembly_modes(context.robot, *given.inputs, context.work);
-  context.report(modes.report);
-  context.remember({});
-  if (modes.report.status == Status::left_domain || modes.report.status == Status::unsupported) return;
-  Value solutions = Value::list();
-  for (std::size_t k = 0; k < modes.poses.size(); ++k) {
-    solutions.push_back({{"pose", pose_value(modes.poses[k])},
-                         {"legs", legs_value(context.robot, modes.poses[k], modes.coordinates, context.work)},
-                         {"residual", modes.residual[k]}});
-    if (modes.is_double[k]) solutions.back()["double"] = true;  // two modes merge: a type II singularity
-  }
-  if (!modes.poses.empty()) {
-    const std::size_t chosen = nearest_pose(context.robot, modes.poses, start);
-    context.remember(modes.poses[chosen]);
-    put_wanted(context, wanted, given,
-               {{}, modes.poses[chosen], {modes.coordinates.begin(), modes.coordinates.end()}});
-    context.answer["residual"] = modes.residual[chosen];
-  }
-  context.answer["count"] = modes.poses.size();
-  context.answer["complete"] = modes.is_complete;
-  context.answer["solutions"] = std::move(solutions);
-}
-
 }  // namespace
 
 Value type_two_value(const TypeTwo& type, bool is_planar) {
@@ -185,105 +159,119 @@ void put_shape(Value& answer, const AnyShape& picture) {
   std::visit([&](const auto& one) { put_shape_of(answer, one); }, picture);
 }
 
-namespace {
-
-struct KinematicForward {
-  Configuration given;
-  int max_iterations;
-  bool wants_trace = false, wants_all = false;
-  KinematicWants wanted;
-};
-
-KinematicForward read_forward(Context& context) {
-  KinematicForward asked{.given = {}, .max_iterations = context.max_iterations.value_or(100), .wanted = {}};
-  asked.given.inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
-  asked.given.start = read_start(context);
-  if (const auto trace = context.query.optional("trace")) asked.wants_trace = trace->boolean();
-  asked.wants_all = read_all(context);
-  asked.wanted = read_kinematic_wants(context);
-  refuse_if_asked(context, "wrench", no_load(context));
-  refuse_if_asked(context, "until", no_load(context));
-  return asked;
+/// Of robots that bear none.
+void KinematicQuestion::read_loads() {
+  refuse_if_asked(*this, "wrench", no_load(*this));
+  if (ask == Ask::forward) refuse_if_asked(*this, "until", no_load(*this));
 }
 
-void answer_forward(Context& context, const KinematicForward& asked) {
-  const Configuration& given = asked.given;
-  if (asked.wants_all)
-    return put_all_modes(context, asked.wanted, given, given.start.value_or(home(context.robot)));
-  std::vector<TraceStep> trace(asked.wants_trace ? max_trace : 0);
-  const ForwardOptions options{.start = given.start ? given.start : context.path_start(),
-                               .max_iterations = asked.max_iterations,
-                               .trace = trace};
-  const Forward result = forward(context.robot, *given.inputs, options, context.work);
-  context.report(result.report);
-  context.remember(result.ok() ? std::optional(result.pose) : std::nullopt);
-  if (result.report.status == Status::left_domain) return;  // nothing was solved
-  if (result.ok())
-    put_wanted(context, asked.wanted, given,
-               {result.report, result.pose, {result.coordinates.begin(), result.coordinates.end()}});
-  context.answer["residual"] = result.report.residual;
-  context.answer["iterations"] = result.report.iterations;
-  if (!trace.empty()) context.answer["trace"] = trace_value(trace, result.report.iterations);
+void KinematicQuestion::read() {
+  if (ask == Ask::forward) {
+    given.inputs = read_inputs(*this, query.required("inputs", "in leg order"));
+    given.start = read_start(*this);
+    if (const auto trace = query.optional("trace")) wants_trace = trace->boolean();
+    wants_all = read_all(*this);
+  } else if (ask == Ask::inverse) {
+    given.at = read_asked_pose(*this);
+    if (!given.at.pose && !query.has("independent")) query.required("pose", "pose of the platform");
+    given.branch = read_branch(*this);
+    if (const auto inputs = query.optional("start")) near_inputs = read_inputs(*this, *inputs);
+    wants_all = read_all(*this);
+  } else {
+    given = read_configuration(*this);
+  }
+  wanted = read_kinematic_wants(*this);
+  if (ask == Ask::forward || ask == Ask::inverse) read_loads();
 }
 
-void answer_inverse(Context& context, const KinematicInverse& asked) {
-  InverseOptions options = asked.branch.options();
-  options.start = asked.start;
-  if (!asked.at.report.ok()) return context.report(asked.at.report);
-  const AnyPose& pose = *asked.at.pose;
-  const Inverse result = inverse(context.robot, pose, options, context.work);
-  context.report(result.report);
-  if (!result.ok()) return;
-  context.answer["inputs"] = result.inputs;
-  Configuration given;
-  if (asked.wanted.along)  // which alone asks how it was given
-    given = {.inputs = std::vector(result.inputs.begin(), result.inputs.end()), .branch = asked.branch};
-  put_wanted(context, asked.wanted, given,
-             {result.report, pose, {result.coordinates.begin(), result.coordinates.end()}});
-  context.answer["residual"] = result.report.residual;
-  if (asked.wants_all) context.answer["solutions"] = all_working_modes(context, pose, asked.branch);
+void KinematicQuestion::solve_forward() {
+  trace_.resize(wants_trace ? max_trace : 0);
+  const ForwardOptions options{.start = given.start ? given.start : path_start(),
+                               .max_iterations = max_iterations.value_or(100),
+                               .trace = trace_};
+  const Forward result = forward(robot, *given.inputs, options, work);
+  found_ = {result.report, result.pose, {result.coordinates.begin(), result.coordinates.end()}};
+  remember(result.ok() ? std::optional(result.pose) : std::nullopt);
 }
 
-/// Of a configuration that a question gives in whatever way.
-void answer_configuration(Context& context, const KinematicConfiguration& asked) {
-  const Solved at = solve_configuration(context, asked.given);
-  if (!context.errors.empty()) return;
-  context.report(at.report);
-  if (!at.report.ok()) return;
-  put_wanted(context, asked.wanted, asked.given, at);
-  context.answer["residual"] = at.report.residual;
+/// Every assembly mode of the inputs; the one nearest to the start stands for the answer.
+void KinematicQuestion::find_modes() {
+  modes_ = assembly_modes(robot, *given.inputs, work);
+  found_ = {modes_->report, {}, {modes_->coordinates.begin(), modes_->coordinates.end()}};
+  remember({});
+  if (modes_->poses.empty()) return;
+  const std::size_t chosen = nearest_pose(robot, modes_->poses, given.start.value_or(home(robot)));
+  found_.pose = modes_->poses[chosen];
+  found_.report.residual = modes_->residual[chosen];
+  remember(found_.pose);
 }
 
-}  // namespace
-
-KinematicInverse read_kinematic_inverse(Context& context) {
-  KinematicInverse asked;
-  asked.at = read_asked_pose(context);
-  if (!asked.at.pose && !context.query.has("independent"))
-    context.query.required("pose", "pose of the platform");
-  asked.branch = read_branch(context);
-  asked.wants_all = read_all(context);
-  asked.wanted = read_kinematic_wants(context);
-  refuse_if_asked(context, "wrench", no_load(context));
-  if (const auto inputs = context.query.optional("start")) asked.start = read_inputs(context, *inputs);
-  return asked;
+void KinematicQuestion::solve_inverse() {
+  found_.report = given.at.report;
+  if (!found_.report.ok()) return;
+  InverseOptions options = given.branch.options();
+  options.start = near_inputs;
+  const Inverse result = inverse(robot, *given.at.pose, options, work);
+  found_ = {result.report, *given.at.pose, {result.coordinates.begin(), result.coordinates.end()}};
+  inputs_ = result.inputs;
+  if (wanted.along) given.inputs = std::vector(inputs_.begin(), inputs_.end());  // where it begins to look
 }
 
-KinematicConfiguration read_kinematic_configuration(Context& context) {
-  KinematicConfiguration asked{read_configuration(context), {}};
-  asked.wanted = read_kinematic_wants(context);
-  return asked;
+void KinematicQuestion::solve() {
+  if (ask == Ask::inverse)
+    solve_inverse();
+  else if (ask != Ask::forward)
+    found_ = solve_configuration(*this, given);
+  else if (wants_all)
+    find_modes();
+  else
+    solve_forward();
+}
+
+void KinematicQuestion::tell() {
+  const Report& found = found_.report;
+  report(found);
+  const bool has_pose = modes_ ? !modes_->poses.empty() : found.ok();
+  const bool tells_failure = ask == Ask::forward && !modes_ && found.status != Status::left_domain;
+  if (!has_pose && !tells_failure) return;
+  if (ask == Ask::inverse) answer["inputs"] = inputs_;
+  if (has_pose) put_wanted(*this, wanted, given, found_);
+  answer["residual"] = found.residual;
+  if (ask != Ask::forward || modes_) return;
+  answer["iterations"] = found.iterations;
+  if (!trace_.empty()) answer["trace"] = trace_value(trace_, found.iterations);
+}
+
+void KinematicQuestion::tell_all() {
+  if (modes_)
+    tell_modes();
+  else if (found_.report.ok())
+    answer["solutions"] = all_working_modes(*this, found_.pose, given.branch);
+}
+
+void KinematicQuestion::tell_modes() {
+  if (modes_->report.status == Status::left_domain || modes_->report.status == Status::unsupported) return;
+  Value solutions = Value::list();
+  for (std::size_t k = 0; k < modes_->poses.size(); ++k) {
+    solutions.push_back({{"pose", pose_value(modes_->poses[k])},
+                         {"legs", legs_value(robot, modes_->poses[k], found_.coordinates, work)},
+                         {"residual", modes_->residual[k]}});
+    if (modes_->is_double[k]) solutions.back()["double"] = true;  // two modes merge: a type II singularity
+  }
+  answer["count"] = modes_->poses.size();
+  answer["complete"] = modes_->is_complete;
+  answer["solutions"] = std::move(solutions);
 }
 
 constexpr Handlers kinematic_handlers{
     .robots = "legs that bear no load",
     .wants = usual_wants | Wants{Want::velocity, Want::shape, Want::sensitivity, Want::lines},
-    .answers = {.forward = handle<read_forward, answer_forward>,
-                .inverse = handle<read_kinematic_inverse, answer_inverse>,
-                .velocity = handle<read_kinematic_configuration, answer_configuration>,
-                .shape = handle<read_kinematic_configuration, answer_configuration>,
+    .answers = {.forward = answer_question<KinematicQuestion>,
+                .inverse = answer_question<KinematicQuestion>,
+                .velocity = answer_question<KinematicQuestion>,
+                .shape = answer_question<KinematicQuestion>,
                 .track = answer_kinematic_track,
-                .describe = tell<describe_platform>},
+                .describe = describe_platform},
     .plan = plan_poses};
 
 }  // namespace sinew::inline v1

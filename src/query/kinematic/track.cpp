@@ -7,6 +7,7 @@
 #include "io/reader.hpp"
 #include "query/context.hpp"
 #include "query/kinematic/kinematics.hpp"
+#include "query/questions.hpp"
 #include "sinew/kinematics/inverse.hpp"
 #include "solve/stopped.hpp"
 
@@ -115,44 +116,48 @@ void put_path_end(Context& context, const Report& report, std::size_t rows, std:
 
 namespace {
 
-struct KinematicTrack {
-  std::vector<AnyPose> poses;
-  Branch branch;
-  Objective objective;
-  std::vector<double> start;
+struct KinematicPath : Context {
+  explicit KinematicPath(const Context& context) : Context(context) {}
+
+  void read();
+  void tell();
+
+ private:
+  std::vector<AnyPose> poses_ = {};
+  Branch branch_ = {};
+  Objective objective_ = Objective::none;
+  std::vector<double> start_ = {};
 };
 
-KinematicTrack read_track(Context& context) {
-  KinematicTrack asked{.poses = read_path(context), .branch = {}, .objective = {}, .start = {}};
-  asked.branch = read_branch(context);
-  asked.objective = read_objective(context.query);
-  if (const auto given = context.query.optional("start")) asked.start = read_inputs(context, *given);
-  return asked;
+void KinematicPath::read() {
+  poses_ = read_path(*this);
+  branch_ = read_branch(*this);
+  objective_ = read_objective(query);
+  if (const auto given = query.optional("start")) start_ = read_inputs(*this, *given);
 }
 
-void answer_track(Context& context, const KinematicTrack& asked) {
-  const std::vector<AnyPose>& poses = asked.poses;
-  TrackOptions options{.branch = asked.branch.options(), .objective = asked.objective};
-  options.branch.start = asked.start;
-  Track track(context.robot, options, context.work);
+void KinematicPath::tell() {
+  TrackOptions options{.branch = branch_.options(), .objective = objective_};
+  options.branch.start = start_;
+  Track track(robot, options, work);
   Value rows = Value::list();
-  Report report;
+  Report found;
   double worst = 0;
-  for (const AnyPose& pose : poses) {
-    report = track.advance(pose);
-    note_stop(context.work.stop, report);
-    if (!report.ok()) break;
+  for (const AnyPose& pose : poses_) {
+    found = track.advance(pose);
+    note_stop(work.stop, found);
+    if (!found.ok()) break;
     worst = std::max(worst, track.closure_error());
-    rows.push_back(row_value(context, track));
+    rows.push_back(row_value(*this, track));
   }
-  context.report(report);
-  if (!report.ok()) put_path_end(context, report, rows.size(), poses.size(), track.progress(), track.pose());
-  context.answer["residual"] = worst;
-  context.answer["rows"] = std::move(rows);
+  report(found);
+  if (!found.ok()) put_path_end(*this, found, rows.size(), poses_.size(), track.progress(), track.pose());
+  answer["residual"] = worst;
+  answer["rows"] = std::move(rows);
 }
 
 }  // namespace
 
-void answer_kinematic_track(Context& context) { handle<read_track, answer_track>(context); }
+void answer_kinematic_track(Context& context) { answer_question<KinematicPath>(context); }
 
 }  // namespace sinew::inline v1

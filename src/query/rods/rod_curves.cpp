@@ -4,42 +4,52 @@
 #include "io/read_pose.hpp"
 #include "io/reader.hpp"
 #include "query/curves.hpp"
+#include "query/questions.hpp"
 #include "query/rods/rods.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-struct RodCurveQuery {
-  RodQuery begin;
-  CurveOptions how;
-  std::optional<SpatialWrench> wrench;  ///< at the target
+struct RodCurves : Context {
+  explicit RodCurves(const Context& context) : Context(context) {}
+
+  void read();
+  void solve();
+  void tell();
+
+ private:
+  void read_target();
+
+  RodQuery begin_ = {};
+  CurveOptions how_ = {};
+  std::optional<SpatialWrench> wrench_ = {};  ///< at the target
+  Equilibrium begun_ = {};
+  std::vector<EquilibriumCurve> curves_ = {};
 };
 
 /// What changes: `to`.
-void read_target(Context& context, RodCurveQuery& asked) {
-  Reader to = context.query.required("to", "{inputs, or pose, and wrench}: what changes along the curve");
+void RodCurves::read_target() {
+  Reader to = query.required("to", "{inputs, or pose, and wrench}: what changes along the curve");
   const auto inputs = to.optional("inputs"), wrench = to.optional("wrench");
   auto pose = to.optional("pose");
-  if (inputs) asked.how.inputs = read_inputs(context, *inputs);
-  if (wrench) asked.wrench = read_wrench<Spatial>(*wrench);
+  if (inputs) how_.inputs = read_inputs(*this, *inputs);
+  if (wrench) wrench_ = read_wrench<Spatial>(*wrench);
   if (pose && inputs) pose->fail("ambiguous", "inputs and pose both say where the curve leads; keep one");
-  if (pose && (input_count(context.robot) != 6 || has_ties(context.robot)))
+  if (pose && (input_count(robot) != 6 || has_ties(robot)))
     pose->fail("not_available", "a pose is held by six inputs, each of one leg; give inputs");
-  if (pose) asked.how.pose = read_spatial_pose(std::move(*pose));
+  if (pose) how_.pose = read_spatial_pose(std::move(*pose));
   if (to.is(Node::Kind::map)) {
-    if (!inputs && !wrench && !asked.how.pose)
+    if (!inputs && !wrench && !how_.pose)
       to.fail("missing_key", "give inputs, pose or wrench: what changes along the curve");
     to.close();
   }
 }
 
-RodCurveQuery read_rod_curve(Context& context) {
-  RodCurveQuery asked;
-  asked.begin = read_configuration_of_rods(context);
-  read_target(context, asked);
-  read_extent(context, asked.how);
-  return asked;
+void RodCurves::read() {
+  begin_ = read_configuration_of_rods(*this);
+  read_target();
+  read_extent(*this, how_);
 }
 
 }  // namespace
@@ -56,19 +66,21 @@ void note_stopped_curve(Context& context) {
 
 namespace {
 
-void answer_curve(Context& context, const RodCurveQuery& asked) {
-  const Equilibrium begin = solve(context, asked.begin);
-  context.report(begin.report);
-  if (!begin.is_solved()) return;
-  CurveOptions how = asked.how;
-  if (asked.wrench) how.added_wrench = *asked.wrench - asked.begin.options.wrench;
-  const auto curves = equilibrium_curves(context.robot, how, context.work);
-  if (curves.empty())
-    return context.query.fail(
-        "no_effect",
-        "nothing changes between the beginning and `to`, or its inputs are beyond what the legs "
-        "can do; give other values");
-  put_curves(context, curves, [](const CurvePoint& point) {
+void RodCurves::solve() {
+  begun_ = sinew::solve(*this, begin_);
+  if (!begun_.is_solved()) return;
+  if (wrench_) how_.added_wrench = *wrench_ - begin_.options.wrench;
+  curves_ = equilibrium_curves(robot, how_, work);
+  if (curves_.empty())
+    query.fail("no_effect",
+               "nothing changes between the beginning and `to`, or its inputs are beyond what the legs "
+               "can do; give other values");
+}
+
+void RodCurves::tell() {
+  report(begun_.report);
+  if (curves_.empty()) return;
+  put_curves(*this, curves_, [](const CurvePoint& point) {
     return Value{{"pose", pose_value(point.pose)}, {"inputs", Value(std::span<const double>(point.inputs))}};
   });
 }
@@ -77,7 +89,7 @@ void answer_curve(Context& context, const RodCurveQuery& asked) {
 
 void answer_rods_track(Context& context) {
   if (context.query.has("from") || context.query.has("poses")) return answer_rods_path(context);
-  handle<read_rod_curve, answer_curve>(context);
+  answer_question<RodCurves>(context);
 }
 
 }  // namespace sinew::inline v1

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/reader.hpp"
+#include "query/questions.hpp"
 #include "query/rods/rods.hpp"
 #include "sinew/kinematics/inverse.hpp"
 #include "solve/stopped.hpp"
@@ -14,12 +15,6 @@ namespace {
 
 /// What inputs can hold: a pose, or three coordinates of one.
 using Held = std::variant<SpatialPose, IndependentPose>;
-
-struct PathQuery {
-  std::vector<Held> path;
-  RodStart start;
-  EquilibriumOptions options;
-};
 
 Held held_between(const Held& from, const Held& to, double part) {
   if (const auto* a = std::get_if<SpatialPose>(&from))
@@ -56,26 +51,6 @@ std::vector<Held> read_independent_path(Context& context) {
   for (int k = 0; k < count && context.errors.empty(); ++k)
     path.push_back(k + 1 < count ? held_between(from, to, static_cast<double>(k) / (count - 1)) : to);
   return path;
-}
-
-PathQuery read_rod_path(Context& context) {
-  PathQuery asked;
-  const int inputs = input_count(context.robot);
-  read_branch(context);  // refuses bending, curvature and elbow
-  read_objective(context.query);
-  if (inputs == 3)
-    asked.path = read_independent_path(context);
-  else
-    for (const AnyPose& pose : read_path(context)) asked.path.emplace_back(std::get<SpatialPose>(pose));
-  if (inputs != 3 && inputs != 6)
-    context.query.fail(
-        "not_available",
-        fmt::format("a pose is held by six inputs, z, e1 and e2 by three; this robot has {}: follow "
-                    "what changes, by inputs and to: {{inputs, wrench}}",
-                    inputs));
-  asked.start = read_start_of_inverse(context);
-  asked.options = read_equilibrium_options(context);
-  return asked;
 }
 
 Equilibrium hold(Context& context, const Held& wanted, const EquilibriumOptions& options) {
@@ -140,49 +115,86 @@ double part_of(const Held& from, const Held& to, const SpatialPose& here) {
   return square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
 }
 
-void answer_path(Context& context, const PathQuery& asked) {
-  Value rows = Value::list();
-  double worst = 0, length = 0;
-  std::size_t unstable = 0, first_unstable = 0;
-  Equilibrium found;
-  EquilibriumOptions options = asked.options;
-  options.warm_start = begin_at(context, asked.start, options, found.report);
-  if (!found.report.is_solved()) {
-    context.report(found.report);
-    context.answer["message"] = "from start: " + std::string(found.report.message.view());
-    context.answer["reached"] = {{"rows", 0}, {"part", 0.0}};
-    remember_held(context, {});
+struct RodPath : Context {
+  explicit RodPath(const Context& context) : Context(context) {}
+
+  void read();
+  void solve();
+  void tell();
+
+ private:
+  std::vector<Held> path_ = {};
+  RodStart start_ = {};
+  EquilibriumOptions options_ = {};
+
+  bool is_begun_ = false;
+  Equilibrium found_ = {};  ///< the last
+  Value rows_ = Value::list();
+  double worst_ = 0;
+  std::size_t unstable_ = 0, first_unstable_ = 0;  ///< how many rows, and which is the first, from 1
+};
+
+void RodPath::read() {
+  const int inputs = input_count(robot);
+  read_branch(*this);  // refuses bending, curvature and elbow
+  read_objective(query);
+  if (inputs == 3)
+    path_ = read_independent_path(*this);
+  else
+    for (const AnyPose& pose : read_path(*this)) path_.emplace_back(std::get<SpatialPose>(pose));
+  if (inputs != 3 && inputs != 6)
+    query.fail(
+        "not_available",
+        fmt::format("a pose is held by six inputs, z, e1 and e2 by three; this robot has {}: follow "
+                    "what changes, by inputs and to: {{inputs, wrench}}",
+                    inputs));
+  start_ = read_start_of_inverse(*this);
+  options_ = read_equilibrium_options(*this);
+}
+
+void RodPath::solve() {
+  EquilibriumOptions options = options_;
+  options.warm_start = begin_at(*this, start_, options, found_.report);
+  is_begun_ = found_.report.is_solved();
+  if (!is_begun_) return remember_held(*this, {});
+  double length = 0;
+  for (std::size_t k = 0; k < path_.size(); ++k) {
+    found_ = k == 0 ? hold(*this, path_[0], options)
+                    : follow_to(*this, path_[k - 1], path_[k], options, length);
+    if (!found_.is_solved() || note_stop(work.stop, found_.report)) break;
+    const RodAnalysis analysis = analyse_equilibrium(robot, work);
+    length = analysis.rods.front().length;
+    worst_ = std::max(worst_, found_.report.residual);
+    if (analysis.unstable_directions > 0 && unstable_++ == 0) first_unstable_ = k + 1;
+    rows_.push_back(rod_row_value(found_, analysis));
+  }
+  const bool arrives = rows_.size() == path_.size();
+  remember_held(*this, arrives ? std::optional(found_.pose) : std::nullopt);
+}
+
+void RodPath::tell() {
+  if (!is_begun_) {
+    report(found_.report);
+    answer["message"] = "from start: " + std::string(found_.report.message.view());
+    answer["reached"] = {{"rows", 0}, {"part", 0.0}};
     return;
   }
-  for (std::size_t k = 0; k < asked.path.size(); ++k) {
-    found = k == 0 ? hold(context, asked.path[0], options)
-                   : follow_to(context, asked.path[k - 1], asked.path[k], options, length);
-    if (!found.is_solved() || note_stop(context.work.stop, found.report)) break;
-    const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
-    length = analysis.rods.front().length;
-    worst = std::max(worst, found.report.residual);
-    if (analysis.unstable_directions > 0 && unstable++ == 0) first_unstable = k + 1;
-    rows.push_back(rod_row_value(found, analysis));
-  }
-  const bool arrives = rows.size() == asked.path.size();
-  remember_held(context, arrives ? std::optional(found.pose) : std::nullopt);
-  if (!arrives) {
-    const std::size_t k = rows.size();
-    put_path_end(context, found.report, k, asked.path.size(),
-                 k > 0 ? part_of(asked.path[k - 1], asked.path[k], found.pose) : 0, found.pose);
+  if (const std::size_t k = rows_.size(); k < path_.size()) {
+    put_path_end(*this, found_.report, k, path_.size(),
+                 k > 0 ? part_of(path_[k - 1], path_[k], found_.pose) : 0, found_.pose);
   } else {
-    context.answer["status"] = to_string(unstable > 0 ? Status::unstable : Status::converged);
-    if (unstable > 0)
-      context.answer["message"] = fmt::format(
+    answer["status"] = to_string(unstable_ > 0 ? Status::unstable : Status::converged);
+    if (unstable_ > 0)
+      answer["message"] = fmt::format(
           "at {} of {} poses the robot does not hold by itself, first at pose {}: see unstable_directions",
-          unstable, rows.size(), first_unstable);
+          unstable_, k, first_unstable_);
   }
-  context.answer["residual"] = worst;
-  context.answer["rows"] = std::move(rows);
+  answer["residual"] = worst_;
+  answer["rows"] = std::move(rows_);
 }
 
 }  // namespace
 
-void answer_rods_path(Context& context) { handle<read_rod_path, answer_path>(context); }
+void answer_rods_path(Context& context) { answer_question<RodPath>(context); }
 
 }  // namespace sinew::inline v1

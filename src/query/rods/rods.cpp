@@ -1,4 +1,4 @@
-#include "query/rods/rods.hpp"
+#include "query/rods/rod_question.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include "io/read_pose.hpp"
 #include "io/reader.hpp"
 #include "query/batch/sampler.hpp"
+#include "query/questions.hpp"
 #include "robot/parallel.hpp"
 #include "robot/rods/rod_work.hpp"
 #include "sinew/analysis/shape.hpp"
@@ -301,17 +302,6 @@ Equilibrium solve(Context& context, const RodQuery& asked) {
 
 namespace {
 
-/// The equilibrium the workspace holds, as all questions answer it.
-void put_equilibrium(Context& context, const Equilibrium& found, const RodWants& wanted,
-                     const std::optional<Vec3<double>>& gravity) {
-  context.report(found.report);
-  if (found.report.iterations > 0 || found.is_solved()) {
-    context.answer["iterations"] = found.report.iterations;
-    put_number(context.answer, "residual", found.report.residual);
-  }
-  if (found.is_solved()) put_rod_wants(context, found, wanted, gravity);
-}
-
 /// What `equilibria` and `inverse_equilibria` tell of one of them beside where it is.
 void put_found(Value& solution, const FoundEquilibrium& one, const Robot& robot) {
   solution["residual"] = one.residual;
@@ -343,9 +333,8 @@ void put_all_lengths(Context& context, const SpatialPose& pose, bool is_held,
 }
 
 /// Of rods that hold, as they do under a load that grows.
-void follow(Context& context, const Until<Spatial>& until, Equilibrium& found) {
+LoadPath follow(Context& context, const Until<Spatial>& until, Equilibrium& found) {
   const LoadPath path = follow_load(context.robot, until.direction, until.limit, context.work);
-  put_growth(context.answer, path);
   const Report report = found.report;
   found = held_equilibrium(context.robot, context.work);
   found.report = report;
@@ -356,36 +345,10 @@ void follow(Context& context, const Until<Spatial>& until, Equilibrium& found) {
     found.report.status = Status::unstable;
     found.report.message = std::string_view("at this load the robot does not hold by itself");
   }
-}
-
-void answer_forward(Context& context, const RodForward& asked) {
-  Equilibrium found = solve(context, asked.at);
-  if (asked.until && found.is_solved()) {
-    if (note_stop(context.work.stop, found.report))
-      return put_equilibrium(context, found, asked.wanted, asked.at.options.gravity);
-    follow(context, *asked.until, found);
-  }
-  put_equilibrium(context, found, asked.wanted, asked.at.options.gravity);
-  if (asked.wants_all) put_all(context, asked.at.inputs, asked.at.options);
+  return path;
 }
 
 }  // namespace
-
-RodForward read_rod_forward(Context& context) {
-  RodForward asked;
-  asked.at.inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
-  if (const auto trace = context.query.optional("trace"))
-    trace->fail("not_available", "the iterates of rods are not recorded; leave it out");
-  asked.at.options = read_equilibrium_options(context);
-  asked.at.options.start = read_spatial_start(context);
-  asked.wanted = read_rod_wants(context);
-  asked.until = read_until<Spatial>(context);
-  const auto all = context.query.optional("all");
-  asked.wants_all = all && all->boolean();
-  if (asked.until && asked.wants_all)
-    all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
-  return asked;
-}
 
 RodStart read_start_of_inverse(Context& context) {
   RodStart start;
@@ -427,71 +390,90 @@ bool begin_at(Context& context, const RodStart& start, const EquilibriumOptions&
   return begun.is_solved();
 }
 
-namespace {
-
-struct RodInverse {
-  RodQuery at;
-  RodWants wanted;
-  RodStart start;
-  bool wants_all = false;
-};
-
-RodInverse read_inverse(Context& context) {
-  RodInverse asked;
-  refuse_what_rods_lack(context);
-  asked.at.pose = read_held_pose(context);
-  if (input_count(context.robot) == pose_inputs && !context.query.has("independent"))
-    context.query.required("pose", "{position, quaternion}: what six rod lengths hold");
-  else if (!context.query.has("pose") || context.query.has("independent")) {
-    auto independent = context.query.required("independent", "{z, e1, e2}: what three rod lengths hold");
-    asked.at.independent = read_independent(context, independent);
+void RodQuestion::read() {
+  switch (ask) {
+    case Ask::forward:
+      read_forward();
+      break;
+    case Ask::inverse:
+      read_inverse();
+      break;
+    default:
+      at = read_configuration_of_rods(*this);
   }
-  asked.at.options = read_equilibrium_options(context);
-  asked.wanted = read_rod_wants(context);
-  asked.start = read_start_of_inverse(context);
-  const auto all = context.query.optional("all");
-  asked.wants_all = all && all->boolean();
-  if (asked.wants_all && input_count(context.robot) != pose_inputs)
-    all->fail("not_available", "of several solutions only the one nearest home is found; leave it out");
-  return asked;
+  wanted = read_rod_wants(*this);
+  if (ask == Ask::forward)
+    read_until_or_all(*this);
+  else if (ask == Ask::inverse)
+    wants_all = read_all(*this);
+  if (wants_all && ask == Ask::inverse && input_count(robot) != pose_inputs)
+    query.required("all").fail("not_available",
+                               "of several solutions only the one nearest home is found; leave it out");
 }
 
-void answer_inverse(Context& context, const RodInverse& asked) {
-  Report begun;
-  RodQuery at = asked.at;
-  at.options.warm_start = begin_at(context, asked.start, at.options, begun);
-  if (!begun.is_solved()) {
-    context.report(begun);
-    context.answer["message"] = "from start: " + std::string(begun.message.view());
-    remember_held(context, {});
+void RodQuestion::read_forward() {
+  at.inputs = read_inputs(*this, query.required("inputs", "rod lengths, in leg order"));
+  if (const auto trace = query.optional("trace"))
+    trace->fail("not_available", "the iterates of rods are not recorded; leave it out");
+  at.options = read_equilibrium_options(*this);
+  at.options.start = read_spatial_start(*this);
+}
+
+void RodQuestion::read_inverse() {
+  refuse_what_rods_lack(*this);
+  at.pose = read_held_pose(*this);
+  if (input_count(robot) == pose_inputs && !query.has("independent"))
+    query.required("pose", "{position, quaternion}: what six rod lengths hold");
+  else if (!query.has("pose") || query.has("independent")) {
+    auto independent = query.required("independent", "{z, e1, e2}: what three rod lengths hold");
+    at.independent = read_independent(*this, independent);
+  }
+  at.options = read_equilibrium_options(*this);
+  start_ = read_start_of_inverse(*this);
+}
+
+void RodQuestion::solve() {
+  if (ask == Ask::inverse) {
+    at.options.warm_start = begin_at(*this, start_, at.options, begun_);
+    if (!begun_.is_solved()) return remember_held(*this, {});
+  }
+  found_ = sinew::solve(*this, at);
+  if (until && found_.is_solved() && !note_stop(work.stop, found_.report)) growth_ = follow(*this, *until, found_);
+}
+
+void RodQuestion::tell() {
+  if (!begun_.is_solved()) {
+    report(begun_);
+    answer["message"] = "from start: " + std::string(begun_.message.view());
     return;
   }
-  const Equilibrium found = solve(context, at);
-  put_equilibrium(context, found, asked.wanted, at.options.gravity);
-  if (asked.wants_all)
-    put_all_lengths(context, *at.pose, found.is_solved(), at.options);
-  else if (at.pose && found.is_solved())
-    context.answer["complete"] = false;  // other lengths may hold it too
+  if (growth_) put_growth(answer, *growth_);
+  report(found_.report);
+  if (found_.report.iterations > 0 || found_.is_solved()) {
+    answer["iterations"] = found_.report.iterations;
+    put_number(answer, "residual", found_.report.residual);
+  }
+  if (!found_.is_solved()) return;
+  put_rod_wants(*this, found_, wanted, at.options.gravity);
+  if (ask == Ask::inverse && at.pose && !wants_all) answer["complete"] = false;  // other lengths may hold it too
 }
 
-RodForward read_rod_configuration(Context& context) {
-  RodForward asked;
-  asked.at = read_configuration_of_rods(context);
-  asked.wanted = read_rod_wants(context);
-  return asked;
+void RodQuestion::tell_all() {
+  if (ask == Ask::forward)
+    put_all(*this, at.inputs, at.options);
+  else if (begun_.is_solved())
+    put_all_lengths(*this, *at.pose, found_.is_solved(), at.options);
 }
-
-}  // namespace
 
 constexpr Handlers rod_handlers{.robots = "elastic rods",
                                 .wants = equilibrium_wants,
-                                .answers = {.forward = handle<read_rod_forward, answer_forward>,
-                                            .inverse = handle<read_inverse, answer_inverse>,
-                                            .velocity = handle<read_rod_configuration, answer_forward>,
-                                            .shape = handle<read_rod_configuration, answer_forward>,
+                                .answers = {.forward = answer_question<RodQuestion>,
+                                            .inverse = answer_question<RodQuestion>,
+                                            .velocity = answer_question<RodQuestion>,
+                                            .shape = answer_question<RodQuestion>,
                                             .statics = answer_rods_statics,
                                             .track = answer_rods_track,
-                                            .describe = tell<describe_platform>},
+                                            .describe = describe_platform},
                                 .plan = plan_rods};
 
 }  // namespace sinew::inline v1

@@ -49,14 +49,6 @@ struct RodWants {
   int samples = 0;   ///< of `shape`
 };
 RodWants read_rod_wants(Context& context);
-/// A question of one equilibrium.
-struct RodForward {
-  RodQuery at;
-  RodWants wanted;
-  std::optional<Until<Spatial>> until;
-  bool wants_all = false;
-};
-RodForward read_rod_forward(Context& context);
 /// Of the equilibrium that the workspace holds, under this gravity.
 void put_rod_wants(Context& context, const Equilibrium& found, const RodWants& wanted,
                    const std::optional<Vec3<double>>& gravity);

@@ -13,6 +13,7 @@
 #include "io/reader.hpp"
 #include "math/linalg.hpp"
 #include "query/batch/sampler.hpp"
+#include "query/questions.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/kinematics/serial.hpp"
 
@@ -374,27 +375,26 @@ void put_serial_wants(SerialContext& context, std::span<const Bend> bends, kerne
   if (wanted.words.has(Want::shape)) put_shape_of(context, bends, wanted.samples);
 }
 
-SerialForward read_serial_forward(SerialContext& context) {
-  SerialForward asked{.model = read_tendon_model(context, kernel::Model::exact),
-                      .shape = read_shape(context)};
-  if (context.ask == Ask::forward) asked.pay_out = read_pay_out(context, asked.shape);
-  asked.wanted = read_serial_wants(context);
-  return asked;
+void SerialQuestion::read() {
+  model = read_tendon_model(*this, kernel::Model::exact);
+  shape = read_shape(*this);
+  if (ask == Ask::forward) pay_out = read_pay_out(*this, shape);
+  wanted = read_serial_wants(*this);
+}
+
+void SerialQuestion::solve() { solve_shape(*this, model, shape); }
+
+void SerialQuestion::tell() {
+  report(shape.report);
+  if (ask == Ask::forward) {
+    put_configuration(*this, shape.bends, model, pay_out,
+                      shape.changes ? std::span<const double>(*shape.changes) : std::span<const double>());
+    if (shape.changes) answer["slack"] = by_section(robot, shape.slack);
+  }
+  put_serial_wants(*this, shape.bends, model, wanted);
 }
 
 namespace {
-
-void answer_forward(SerialContext& context, const SerialForward& asked) {
-  Shaped shape = asked.shape;
-  solve_shape(context, asked.model, shape);
-  context.report(shape.report);
-  if (context.ask == Ask::forward) {
-    put_configuration(context, shape.bends, asked.model, asked.pay_out,
-                      shape.changes ? std::span<const double>(*shape.changes) : std::span<const double>());
-    if (shape.changes) context.answer["slack"] = by_section(context.robot, shape.slack);
-  }
-  put_serial_wants(context, shape.bends, asked.model, asked.wanted);
-}
 
 constexpr std::string_view bears_none =
     "a serial robot by pcc or lsk bears no load: it takes the shape that the lengths of its tendons give; "
@@ -405,10 +405,10 @@ constexpr Lack lacking[] = {{"wrench", bears_none}, {"gravity", bears_none}, {"u
 
 constexpr Handlers serial_handlers{.robots = "serial robots",
                                    .wants = {Want::pose, Want::velocity, Want::shape},
-                                   .answers = {.forward = handle<read_serial_forward, answer_forward>,
+                                   .answers = {.forward = answer_question<SerialQuestion>,
                                                .inverse = answer_serial_inverse,
-                                               .velocity = handle<read_serial_forward, answer_forward>,
-                                               .shape = handle<read_serial_forward, answer_forward>,
+                                               .velocity = answer_question<SerialQuestion>,
+                                               .shape = answer_question<SerialQuestion>,
                                                .diagram = answer_serial_diagram,
                                                .describe = answer_serial_describe},
                                    .lacks = lacking,

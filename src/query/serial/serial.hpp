@@ -78,13 +78,21 @@ void put_serial_wants(SerialContext& context, std::span<const Bend> bends, kerne
                       const SerialWants& wanted);
 
 /// A question of one shape.
-struct SerialForward {
-  kernel::Model model;
-  Shaped shape;
+struct SerialQuestion : SerialContext {
+  using SerialContext::SerialContext;
+
+  /// @name What was read
+  /// @{
+  kernel::Model model = kernel::Model::exact;
+  Shaped shape = {};
   std::vector<double> pay_out = {};  ///< of all tendons of a section
   SerialWants wanted = {};
+  /// @}
+
+  void read();
+  void solve();
+  void tell();
 };
-SerialForward read_serial_forward(SerialContext& context);
 
 /// @name In files of their own
 /// @{

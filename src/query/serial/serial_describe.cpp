@@ -1,6 +1,7 @@
 /// Handler of `describe` of serial robots.
 #include <array>
 
+#include "query/questions.hpp"
 #include "query/serial/serial.hpp"
 #include "sinew/base/export.hpp"
 
@@ -8,11 +9,16 @@ namespace sinew::inline v1 {
 
 namespace {
 
-void describe_serial(Context& asked) {
-  const SerialContext context(asked);
+struct SerialDescription : SerialContext {
+  using SerialContext::SerialContext;
+  void read() {}
+  void tell();
+};
+
+void SerialDescription::tell() {
   Value sections = Value::list(), coordinates = Value::list(), inputs = Value::list();
-  for (std::size_t m = 0; m < context.robot.sections.size(); ++m) {
-    const Section& section = context.robot.sections[m];
+  for (std::size_t m = 0; m < robot.sections.size(); ++m) {
+    const Section& section = robot.sections[m];
     const std::string place = joined("sections", m);
     Value one{
         {"type", section.is_twin() ? "tpcj" : "neutral"},
@@ -33,27 +39,26 @@ void describe_serial(Context& asked) {
       inputs.push_back(
           {{"name", joined(joined(place, "tendons"), static_cast<std::size_t>(i))}, {"unit", "m"}});
   }
-  Value& answer = context.answer;
   answer["status"] = "converged";
   answer["kind"] = "serial";
   answer["space"] = "spatial";
   answer["inputs"] = inputs;
   answer["configuration"] = coordinates;
   answer["sections"] = sections;
-  answer["length"] = context.robot.length();
-  answer["tolerance"] = context.robot.tolerance;
-  if (const auto& motor = context.robot.motor)
+  answer["length"] = robot.length();
+  answer["tolerance"] = robot.tolerance;
+  if (const auto& motor = robot.motor)
     answer["motor"] = {{"lead", motor->lead}, {"counts", motor->counts}, {"gear", motor->gear}};
-  if (const auto& stretch = context.robot.stretch)
+  if (const auto& stretch = robot.stretch)
     answer["stretch"] = {{"stiffness", stretch->stiffness}, {"outside", stretch->outside}};
   answer["models"] = Value::list({"pcc", "lsk"});
   answer["model"] = "pcc";
-  answer["geometry"] = context.robot.geometry_inferred ? "inferred" : "given";
+  answer["geometry"] = robot.geometry_inferred ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
 
 }  // namespace
 
-void answer_serial_describe(Context& context) { tell<describe_serial>(context); }
+void answer_serial_describe(Context& context) { answer_question<SerialDescription>(context); }
 
 }  // namespace sinew::inline v1

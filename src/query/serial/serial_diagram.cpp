@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/reader.hpp"
+#include "query/questions.hpp"
 #include "query/serial/serial.hpp"
 #include "tendon/state.hpp"
 
@@ -162,75 +163,75 @@ void put_outline(SerialContext& context, const Asked& asked, const TendonsTo& co
     context.answer["no_outline"] = reasons[static_cast<std::size_t>(outline.missing)];
 }
 
-struct SectionQuestion {
+/// A question of the diagram of one section.
+struct SectionQuestion : SerialContext {
+  using SerialContext::SerialContext;
+
+  void read();
+  void tell();
+
   std::size_t m = 0;
-  kernel::Model model;
-  TendonsTo commanded;
-  std::optional<TendonsTo> measured;
+  kernel::Model model = kernel::Model::linear;
+  TendonsTo commanded = {};
+  std::optional<TendonsTo> measured = {};
   double tolerance = 0;
-  Envelope envelope;
+  Envelope envelope = {};
 };
 
-SectionQuestion read_diagram(SerialContext& context) {
-  SectionQuestion asked;
-  const Reader which = context.query.required("section", "0-based");
-  const auto m =
-      static_cast<std::size_t>(which.integer(Range::between(0, context.robot.section_count() - 1)));
-  asked.m = m;
-  asked.model = read_tendon_model(context, kernel::Model::linear);
-  asked.commanded =
-      read_tendons(context, context.query.required("changes", "of all sections up to it, or its own"), m);
-  if (const auto given = context.query.optional("measured"))
-    asked.measured = read_tendons(context, *given, m);
-  const auto tolerance = context.query.optional("tolerance");
-  SerialRobot judged = context.robot;
-  if (tolerance) judged.tolerance = tolerance->quantity(Dimension::length, Range::not_negative());
-  asked.tolerance = tendon_tolerance(judged);  // at least rounding
-  asked.envelope = read_envelope(context, context.robot.sections[m < context.robot.sections.size() ? m : 0]);
-  return asked;
+void SectionQuestion::read() {
+  const Reader which = query.required("section", "0-based");
+  m = static_cast<std::size_t>(which.integer(Range::between(0, robot.section_count() - 1)));
+  model = read_tendon_model(*this, kernel::Model::linear);
+  commanded =
+      read_tendons(*this, query.required("changes", "of all sections up to it, or its own"), m);
+  if (const auto list = query.optional("measured")) measured = read_tendons(*this, *list, m);
+  const auto given = query.optional("tolerance");
+  SerialRobot judged = robot;
+  if (given) judged.tolerance = given->quantity(Dimension::length, Range::not_negative());
+  tolerance = tendon_tolerance(judged);  // at least rounding
+  envelope = read_envelope(*this, robot.sections[m < robot.sections.size() ? m : 0]);
 }
 
-void answer_diagram(SerialContext& context, const SectionQuestion& of) {
-  const std::size_t m = of.m;
-  const Section& section = context.robot.sections[m];
-  const auto ask = [&](const TendonsTo& tendons, Asked& asked) {
+void SectionQuestion::tell() {
+  const Section& section = robot.sections[m];
+  const auto diagram_of = [&](const TendonsTo& tendons, Asked& asked) {
     asked.question.section = section.map();
-    asked.question.envelope = of.envelope;
-    asked.question.tolerance = of.tolerance;
-    asked.question.model = of.model;
+    asked.question.envelope = envelope;
+    asked.question.tolerance = tolerance;
+    asked.question.model = model;
     asked.question.tendons = {
-        std::span(context.work.directions).subspan(tendons.first, tendons.changes.size() - tendons.first),
+        std::span(work.directions).subspan(tendons.first, tendons.changes.size() - tendons.first),
         std::span(tendons.changes).subspan(tendons.first)};
     put_earlier(asked, tendons);
-    if (section.is_extensible()) take_extension(asked, tendons, context.robot, m);
+    if (section.is_extensible()) take_extension(asked, tendons, robot, m);
     return section_diagram(asked.question);
   };
-  Asked asked(context, m);
-  const SectionDiagram diagram = ask(of.commanded, asked);
+  Asked asked(*this, m);
+  const SectionDiagram diagram = diagram_of(commanded, asked);
   // An earlier section beyond its limit is not where the diagram takes it; slack there is `conditional`.
   const bool is_out = asked.earlier.status == Status::left_domain;
-  context.report(is_out && diagram.report.ok() ? asked.earlier : diagram.report);
+  report(is_out && diagram.report.ok() ? asked.earlier : diagram.report);
   if (diagram.report.status == Status::left_domain) return;
-  put_diagram(context.answer, asked.question, diagram);
+  put_diagram(answer, asked.question, diagram);
   constexpr std::string_view kinds[] = {"square", "disc", "actuator"};
-  context.answer["envelope"] = {{"kind", kinds[static_cast<std::size_t>(of.envelope.kind)]},
-                                {"limit", of.envelope.limit}};
-  context.answer["conditional"] = asked.is_conditional;
-  if (asked.is_conditional) put_outline(context, asked, of.commanded, m);
-  if (of.measured) {
-    Asked of_encoders(context, m);
+  answer["envelope"] = {{"kind", kinds[static_cast<std::size_t>(envelope.kind)]},
+                                {"limit", envelope.limit}};
+  answer["conditional"] = asked.is_conditional;
+  if (asked.is_conditional) put_outline(*this, asked, commanded, m);
+  if (measured) {
+    Asked of_encoders(*this, m);
     Value state = Value::map();
-    const SectionDiagram read = ask(*of.measured, of_encoders);
+    const SectionDiagram read = diagram_of(*measured, of_encoders);
     if (read.report.status == Status::left_domain)
       state = {{"status", "left_domain"}, {"message", std::string(read.report.message.view())}};
     else
       put_state(state, of_encoders.question, read);
-    context.answer["measured"] = std::move(state);
+    answer["measured"] = std::move(state);
   }
 }
 
 }  // namespace
 
-void answer_serial_diagram(Context& context) { handle<read_diagram, answer_diagram>(context); }
+void answer_serial_diagram(Context& context) { answer_question<SectionQuestion>(context); }
 
 }  // namespace sinew::inline v1

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "kinematics/serial/three_arcs.hpp"
+#include "query/questions.hpp"
 #include "query/serial/serial.hpp"
 #include "query/tip.hpp"
 #include "sinew/kinematics/serial.hpp"
@@ -42,88 +43,104 @@ std::optional<ThreeArcs> three_arcs(const SerialRobot& robot) {
   return arcs;
 }
 
-/// Every solution within the limits; the one that bends least stands for the answer.
-void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& target, kernel::Model model,
-                const SerialWants& wanted) {
-  const SE3<double> tip{target.position, *target.rotation};
-  const ThreeArcSolutions found = all_bends(arcs, spatial_pose(tip), context.work.stop);
-  Value solutions = Value::list();
-  std::optional<std::size_t> first;
-  for (std::size_t k = 0; k < found.solutions.size(); ++k) {
-    const std::span<const Bend> bends = found.solutions[k];
-    if (!check_limits(context.robot, bends).ok()) continue;
-    if (!first) first = k;
-    solutions.push_back({{"configuration", configuration_value(context, bends)},
-                         {"changes", changes_value(context, bends, model)},
-                         {"residual", found.residual[k]}});
-  }
-  Report report = found.report;
-  if (!first && !found.solutions.empty() && report.status != Status::stopped) {
-    report.status = found.is_complete() ? Status::unreachable : Status::stalled;
-    report.message = {};
-    append_number(report.message, static_cast<int>(found.solutions.size()));
-    report.message.append(found.is_complete()
-                              ? " solutions, none within the limits of all sections"
-                              : " examples of a continuum, none within the limits of all sections");
-  }
-  context.report(report);
-  if (report.status == Status::left_domain) return;
-  if (first) {
-    put_configuration(context, found.solutions[*first], model);
-    put_serial_wants(context, found.solutions[*first], model, wanted);
-    context.answer["residual"] = found.residual[*first];
-  }
-  context.answer["count"] = solutions.size();
-  context.answer["complete"] = found.is_complete();
-  context.answer["solutions"] = std::move(solutions);
-}
+struct SerialInverseQuestion : SerialContext {
+  using SerialContext::SerialContext;
 
-struct SerialInverseQuestion {
-  kernel::Model model;
-  TipTarget target;
-  SerialConfiguration start;
-  std::optional<ThreeArcs> all;  ///< of which every solution is wanted
-  SerialWants wanted;
+  void read();
+  void solve();
+  void tell();
+
+ private:
+  void solve_all();
+  void tell_all();
+
+  kernel::Model model_ = kernel::Model::exact;
+  TipTarget target_ = {Vec3<double>::Zero()};
+  SerialConfiguration start_ = {};
+  std::optional<ThreeArcs> arcs_ = {};  ///< of which every solution is wanted
+  SerialWants wanted_ = {};
+
+  Report found_ = {};
+  std::vector<Bend> bends_ = {};         ///< that stand for the answer; empty: there are none
+  ThreeArcSolutions solutions_ = {};     ///< of the arcs
+  std::vector<std::size_t> within_ = {};  ///< which of them are within the limits
 };
 
-SerialInverseQuestion read_inverse(SerialContext& context) {
-  SerialInverseQuestion asked{.model = read_tendon_model(context, kernel::Model::exact),
-                              .target = read_target(context),
-                              .start = {},
-                              .all = {},
-                              .wanted = {}};
-  if (const auto given = context.query.optional("start")) asked.start = read_configuration(context, *given);
-  const auto all = context.query.optional("all");
+void SerialInverseQuestion::read() {
+  model_ = read_tendon_model(*this, kernel::Model::exact);
+  target_ = read_target(*this);
+  if (const auto given = query.optional("start")) start_ = read_configuration(*this, *given);
+  const auto all = query.optional("all");
   const bool want_all = all && all->boolean();
-  if (want_all) asked.all = three_arcs(context.robot);
-  if (want_all && !asked.all)
+  if (want_all) arcs_ = three_arcs(robot);
+  if (want_all && !arcs_)
     all->fail("not_available",
               "every solution is found of three arcs only: three neutral sections of one segment, "
               "without discs, of fixed lengths");
-  if (want_all && !asked.target.rotation && context.errors.empty())
+  if (want_all && !target_.rotation && errors.empty())
     all->fail("not_available", "a target that leaves turns open has a continuum of solutions; give a pose");
   for (const char* key : {"start", "max_iterations"})
-    if (const auto given = context.query.optional(key); given && want_all)
+    if (const auto given = query.optional(key); given && want_all)
       given->refuse("no_effect", "has no effect where all solutions are asked for; remove it");
-  asked.wanted = read_serial_wants(context);
-  return asked;
+  wanted_ = read_serial_wants(*this);
 }
 
-void answer_inverse(SerialContext& context, const SerialInverseQuestion& asked) {
-  if (asked.all) return answer_all(context, *asked.all, asked.target, asked.model, asked.wanted);
-  SerialInverseOptions options{.start = asked.start.bends, .start_extensions = asked.start.extensions};
-  if (context.max_iterations) options.max_iterations = *context.max_iterations;
-  const SerialInverse found = inverse(context.robot, asked.target, options, context.work);
-  context.report(found.report);
-  const std::vector<Bend> bends(found.bends.begin(), found.bends.end());
-  put_configuration(context, bends, asked.model);
-  context.answer["residual"] = found.report.residual;
-  context.answer["iterations"] = found.report.iterations;
-  put_serial_wants(context, bends, asked.model, asked.wanted);
+void SerialInverseQuestion::solve() {
+  if (arcs_) return solve_all();
+  SerialInverseOptions options{.start = start_.bends, .start_extensions = start_.extensions};
+  if (max_iterations) options.max_iterations = *max_iterations;
+  const SerialInverse one = inverse(robot, target_, options, work);
+  found_ = one.report;
+  bends_.assign(one.bends.begin(), one.bends.end());
+}
+
+/// Every solution within the limits; the one that bends least stands for the answer.
+void SerialInverseQuestion::solve_all() {
+  const SE3<double> tip{target_.position, *target_.rotation};
+  solutions_ = all_bends(*arcs_, spatial_pose(tip), work.stop);
+  for (std::size_t k = 0; k < solutions_.solutions.size(); ++k)
+    if (check_limits(robot, solutions_.solutions[k]).ok()) within_.push_back(k);
+  found_ = solutions_.report;
+  if (!within_.empty()) {
+    const auto& least = solutions_.solutions[within_.front()];
+    bends_.assign(least.begin(), least.end());
+    found_.residual = solutions_.residual[within_.front()];
+  } else if (!solutions_.solutions.empty() && found_.status != Status::stopped) {
+    found_.status = solutions_.is_complete() ? Status::unreachable : Status::stalled;
+    found_.message = {};
+    append_number(found_.message, static_cast<int>(solutions_.solutions.size()));
+    found_.message.append(solutions_.is_complete()
+                              ? " solutions, none within the limits of all sections"
+                              : " examples of a continuum, none within the limits of all sections");
+  }
+}
+
+void SerialInverseQuestion::tell() {
+  report(found_);
+  if (!bends_.empty()) {
+    put_configuration(*this, bends_, model_);
+    answer["residual"] = found_.residual;
+    if (!arcs_) answer["iterations"] = found_.iterations;
+    put_serial_wants(*this, bends_, model_, wanted_);
+  }
+  if (arcs_ && found_.status != Status::left_domain) tell_all();
+}
+
+void SerialInverseQuestion::tell_all() {
+  Value solutions = Value::list();
+  for (const std::size_t k : within_) {
+    const std::span<const Bend> bends = solutions_.solutions[k];
+    solutions.push_back({{"configuration", configuration_value(*this, bends)},
+                         {"changes", changes_value(*this, bends, model_)},
+                         {"residual", solutions_.residual[k]}});
+  }
+  answer["count"] = solutions.size();
+  answer["complete"] = solutions_.is_complete();
+  answer["solutions"] = std::move(solutions);
 }
 
 }  // namespace
 
-void answer_serial_inverse(Context& context) { handle<read_inverse, answer_inverse>(context); }
+void answer_serial_inverse(Context& context) { answer_question<SerialInverseQuestion>(context); }
 
 }  // namespace sinew::inline v1
