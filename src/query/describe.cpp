@@ -138,9 +138,8 @@ void PlatformDescription::tell() {
     answer["platform"]["mass"] = robot.weight().platform_mass;
     answer["gravity"] = Value(robot.weight().gravity);
   }
-  answer["freedoms"] = {{"platform", dof(robot)},
-                        {"constraints", row_count(robot)},
-                        {"actuators", input_count(robot)}};
+  answer["freedoms"] = {
+      {"platform", dof(robot)}, {"constraints", row_count(robot)}, {"actuators", input_count(robot)}};
   answer["legs"] = legs;
   const bool has_arcs = robot.model() == Model::cc || robot.model() == Model::prb;
   Value models = Value::list({to_string(has_arcs ? Model::cc : robot.model())});

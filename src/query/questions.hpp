@@ -5,9 +5,10 @@
 
 namespace sinew::inline v1 {
 
-/// A question is read, solved once, and told. `Asked` is what one kind of mechanics is asked; made of a Context, it is a
-/// Question, too, and has
-///   read()      takes all fields and computes nothing: what places the robot, what acts on it, where a search begins,
+/// A question is read, solved once, and told. `Asked` is what one kind of mechanics is asked; made of a
+/// Context, it is a Question, too, and has
+///   read()      takes all fields and computes nothing: what places the robot, what acts on it, where a
+///   search begins,
 ///               what is wanted;
 ///   solve()     finds what the question asks for; where this is left out it is found as it is told;
 ///   tell()      writes how that went, and what is wanted of it;

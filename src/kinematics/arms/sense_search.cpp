@@ -93,7 +93,7 @@ FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {
     if (!(values.front() > 1e-15 * values.back()) ||
         !solve({normal.data(), n, n}, {identity.data(), n, n}, inverse)) {
       sensed.report = {
-          Status::singular, sensed.report.iterations, 0,
+          Status::singular, sensed.report.iterations, sensed.report.residual,
           FixedText<240>("what is measured does not tell the wrench: measure more, or ask the force alone")};
       return sensed;
     }
@@ -121,7 +121,7 @@ FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {
         misfit = 0;
         for (const double x : off) misfit += x * x;
       } else if (round == 0) {
-        sensed.report = {Status::singular, 0, 0,
+        sensed.report = {Status::singular, 0, sensed.report.residual,
                          FixedText<240>("the equilibrium is a fold: it has no rates")};
         return sensed;
       }

@@ -88,8 +88,7 @@ void ArmQuestion<ArmLegs>::read_start() {
   const bool may_be_shape = ask != Ask::inverse && ask != Ask::statics;
   if (!given || given->kind != Node::Kind::map || !may_be_shape) return read_arm_start(*this, options.arm);
   Reader shape = query.required("start");
-  start = ArmLegsStart{
-      read_pose_of(robot.is_planar, shape.required("pose", "where the platform is")), {}};
+  start = ArmLegsStart{read_pose_of(robot.is_planar, shape.required("pose", "where the platform is")), {}};
   const Reader curvatures =
       shape.required("curvatures", "of each leg the mean curvatures of equal parts, as `all` tells them");
   for (const Reader& leg : curvatures.items(robot.legs.size()))
@@ -252,7 +251,7 @@ void ArmQuestion<Arms>::tell() {
   if (has_friction(robot)) this->add_message(of_friction(robot));
   if (state_.report.status == Status::stalled && ask == Ask::forward && !wants_all && !until)
     this->add_message(other_beginnings(robot));
-  if (is_refused(state_)) return;
+  if (found_.status == Status::bad_input || is_refused(state_)) return;
   put_arm_state(*this, state_, found_);
   if (growth_) put_growth(answer, *growth_);
   if (holding_) answer["wrench"] = wrench_value(planar, *holding_);

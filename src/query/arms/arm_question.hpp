@@ -24,7 +24,8 @@ struct ArmQuestion : ArmContextOf<Arms> {
   ArmTarget target = {};                      ///< of `inverse`
   typename Types::Measurement measured = {};  ///< of `statics`, with `force_alone`
   bool force_alone = true;
-  std::optional<SE3<double>> held_at = {};  ///< of `statics`: the platform is held there, and nothing measured
+  std::optional<SE3<double>> held_at =
+      {};  ///< of `statics`: the platform is held there, and nothing measured
   Wants words = {};
   int samples = 0;  ///< of `shape`
   /// @}

@@ -29,23 +29,22 @@ int read_path_steps(Reader& query, const Reader& list, std::size_t points) {
   return steps;
 }
 
-/// Fields of paths of poses, as other robots are given, and `motions` where tendons do not rub.
-void refuse_others(Question& question, std::initializer_list<const char*> fields, const char* why) {
-  for (const char* field : fields)
-    if (question.query.node()->find(field))  // else it is no field of this question
-      if (const auto given = question.query.optional(field)) given->fail("not_available", why);
+/// @name What tells the two apart
+/// @{
+
+constexpr std::string_view not_along_poses(const Arm&) {
+  return "an arm is followed along what holds its tendons: give points: [{tensions: [[1, 0, 0]]}, ...]; for "
+         "the "
+         "tensions that reach a pose ask inverse";
 }
-void refuse_others(ArmContext& context) {
-  refuse_others(context, {"poses", "from", "to", "objective"},
-                "an arm is followed along what holds its tendons: give points: [{tensions: [[1, 0, 0]]}, "
-                "...]; for the tensions that reach a pose ask inverse");
+constexpr std::string_view not_along_poses(const ArmLegs&) {
+  return "legs of sections are followed along points: [{pose: ...}, ...], or tensions, changes and loads";
 }
-void refuse_others(ArmLegsContext& context) {
-  refuse_others(context, {"poses", "from", "to", "objective"},
-                "legs of sections are followed along points: [{pose: ...}, ...], or tensions, changes and "
-                "loads");
-  refuse_others(context, {"motions"},
-                "tendons of legs of sections do not rub; ask velocity for their rates");
+constexpr std::string_view form_of_points(const Arm&) {
+  return "the path: [{tensions or changes, wrench, ...}, ...]";
+}
+constexpr std::string_view form_of_points(const ArmLegs&) {
+  return "the path: [{tensions, changes or pose, wrench, ...}, ...]";
 }
 
 /// Where inputs are to lead, which a point of a platform's path may say in their place. Whether it does.
@@ -59,6 +58,8 @@ bool read_pose_of_step(const ArmLegs& robot, Reader& point, ArmLegsStep& step, b
   return true;
 }
 
+/// @}
+
 /// The points of the path; what a point does not say is as at the point before, of loads as in the question.
 template <class Step, class Arms>
 std::vector<Step> read_points(ArmContextOf<Arms>& context) {
@@ -66,8 +67,7 @@ std::vector<Step> read_points(ArmContextOf<Arms>& context) {
   const Arms& robot = context.robot;
   const auto load = read_arm_load(robot, query);
   std::vector<Step> path;
-  const auto list =
-      query.required("points", "the path: [{tensions, changes, of a platform pose, wrench, ...}, ...]");
+  const auto list = query.required("points", form_of_points(robot));
   for (Reader& point : list.items()) {
     if (!point.is(Node::Kind::map)) {
       point.refuse("wrong_type", "give a map: {tensions: [[1, 0, 0]]}.");
@@ -134,6 +134,10 @@ Value in_motion(ArmContext& context, std::span<const double> motions) {
 const ArmState& state_of(const ArmPathPoint& point) { return point.state; }
 const ArmLegsState& state_of(const ArmLegsState& point) { return point; }
 
+/// Whether it was begun; else nothing is known but why not.
+bool is_begun(const ArmPathPoint& point) { return !point.tensions.empty(); }
+bool is_begun(const ArmLegsState& point) { return !point.tensions.empty(); }
+
 /// A row's numbers, or those of where a path ends.
 void put_point(Value& value, const Arm& arm, const ArmPathPoint& point) {
   put_arm_numbers(value, arm, point.state);
@@ -185,12 +189,13 @@ void ArmPath<Arm>::read_wanted() {
 }
 template <>
 void ArmPath<ArmLegs>::read_wanted() {
+  if (const auto motions = query.optional("motions"))
+    motions->fail("not_available", "tendons of legs of sections do not rub; ask velocity for their rates");
   words_ = read_wants(*this);
 }
 
 template <class Arms>
 void ArmPath<Arms>::read() {
-  refuse_others(*this);
   options_.arm = read_arm_options(*this, robot);
   path_ = read_points<Step>(*this);
   read_arm_start(*this, options_.arm);
@@ -247,28 +252,29 @@ void ArmPath<Arms>::tell() {
   Report report = state_of(points_.back()).report;
   arrives_ = report.ok();
   this->report(report);
-  if (state_of(points_.back()).tensions.empty()) return;  // refused: no step was tried
+  if (!is_begun(points_.back())) return;
 
   const auto steps = static_cast<std::size_t>(path_.front().divisions);
   const std::size_t reached = arrives_ ? points_.size() : points_.size() - 1;
   Value rows = Value::list();
-  report.residual = 0;
+  double worst = 0;
   report.iterations = 0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto& state = state_of(points_[k]);
     report.iterations += state.report.iterations;
     if (k == reached) break;
-    report.residual = std::max(report.residual, state.report.residual);
+    worst = std::max(worst, state.report.residual);
     Value row{{"point", k / steps},
               {"part", static_cast<double>(k % steps + 1) / static_cast<double>(steps)}};
     put_point(row, robot, points_[k]);
     put_work(row, points_[k]);
     rows.push_back(std::move(row));
   }
-  if (!arrives_)
-    answer["message"] =
-        fmt::format("the path ends on its way to points[{}], in step {} of {}: {}", reached / steps,
-                    reached % steps + 1, steps, report.message.view());
+  if (arrives_)
+    report.residual = worst;
+  else
+    answer["message"] = fmt::format("the path ends on its way to points[{}], in step {} of {}: {}",
+                                    reached / steps, reached % steps + 1, steps, report.message.view());
   tell_last(report);
   if (!arrives_) answer["reached"] = {{"rows", reached}, {"point", reached / steps}};
   answer["rows"] = std::move(rows);
@@ -278,7 +284,14 @@ void ArmPath<Arms>::tell() {
 
 template <class Arms>
 void answer_arms_track(Context& context) {
-  answer_question<ArmPath<Arms>>(context);
+  bool is_along_poses = false;
+  for (const char* field : {"poses", "from", "to", "objective"})  // of other robots' paths
+    if (context.query.node()->find(field))                        // else it is no field of this question
+      if (const auto given = context.query.optional(field)) {
+        is_along_poses = true;
+        given->fail("not_available", not_along_poses(ArmTypes<Arms>::of(context.robot)));
+      }
+  if (!is_along_poses) answer_question<ArmPath<Arms>>(context);
 }
 template void answer_arms_track<Arm>(Context&);
 template void answer_arms_track<ArmLegs>(Context&);

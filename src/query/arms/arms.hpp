@@ -1,6 +1,7 @@
 /// @file arms.hpp
 /// What questions to arms, and to platforms on arms, have in common: what is read of them, and what is told.
 #pragma once
+#include "io/measured/measurement.hpp"
 #include "io/reader.hpp"
 #include "math/plane_axes.hpp"
 #include "query/handlers.hpp"
@@ -73,8 +74,7 @@ Value matrix_value(bool is_planar, const double* numbers, std::size_t rows, std:
                    bool by_columns);
 /// @}
 
-/// How many tendons end at each section; of a platform, sections of leg 0 first.
-std::vector<std::size_t> tendon_counts(const Arm& arm);
+/// How many tendons end at each section; sections of leg 0 first.
 std::vector<std::size_t> tendon_counts(const ArmLegs& robot);
 /// Numbers of all tendons as a list a section.
 template <class Arms>

@@ -14,8 +14,8 @@ Value wrench_value(bool is_planar, const std::array<double, 6>& wrench) {
   for (const std::size_t k : freedoms_of(is_planar)) numbers.push_back(wrench[k]);
   return numbers;
 }
-Value matrix_value(bool is_planar, const double* numbers, std::size_t rows, std::size_t columns,
-                   bool by_rows, bool by_columns) {
+Value matrix_value(bool is_planar, const double* numbers, std::size_t rows, std::size_t columns, bool by_rows,
+                   bool by_columns) {
   std::vector<std::size_t> of_rows(rows), of_columns(columns);
   std::iota(of_rows.begin(), of_rows.end(), std::size_t{0});
   std::iota(of_columns.begin(), of_columns.end(), std::size_t{0});
@@ -205,7 +205,7 @@ void put_arm_wants(ArmContextOf<Arms>& context, const typename ArmTypes<Arms>::S
   }();
   if (!rates.regular) {
     context.add_message(tells_stability(state) ? "the equilibrium is a fold: it has no rates"
-                                              : "rates and margins are told of balances by energy alone");
+                                               : "rates and margins are told of balances by energy alone");
     return;
   }
   Value& answer = context.answer;
@@ -227,8 +227,7 @@ void put_arm_wants(ArmContextOf<Arms>& context, const typename ArmTypes<Arms>::S
       context.add_message(
           "more than six tendons are exactly at rest and counted as slack: the margin to buckling is at "
           "least this");
-    if (words.has(Want::margins) && tendons > 0)
-      answer["least_tension"] = std::ranges::min(state.tensions);
+    if (words.has(Want::margins) && tendons > 0) answer["least_tension"] = std::ranges::min(state.tensions);
   }
 }
 

@@ -39,11 +39,6 @@ std::array<double, 6> read_wrench_of(bool is_planar, const Reader& list) {
   return wrench;
 }
 
-std::vector<std::size_t> tendon_counts(const Arm& arm) {
-  std::vector<std::size_t> counts(arm.sections.size());
-  for (const ArmTendon& tendon : arm.tendons) ++counts[static_cast<std::size_t>(tendon.section())];
-  return counts;
-}
 std::vector<std::size_t> tendon_counts(const ArmLegs& robot) {
   std::vector<std::size_t> counts;
   for (const ArmLeg& leg : robot.legs) {

@@ -223,7 +223,8 @@ SamplerKind plan_arms(Context& of_robot, const RowPlaces& rows) {
   const bool is_plain = read.is_read() && !read.query.has("start") && !read.until && !read.wants_all &&
                         read.words == usual_of(read.ask);
   if (!is_plain || !rows.are_within({"tensions", "changes", "wrench"})) return {};
-  AskedArm asked{.arm = read.robot, .options = read.options.arm, .load = read.load, .is_path = rows.is_path()};
+  AskedArm asked{
+      .arm = read.robot, .options = read.options.arm, .load = read.load, .is_path = rows.is_path()};
   std::vector<std::size_t> next(read.robot.sections.size());
   for (std::size_t i = 0; i < read.commands.size(); ++i) {
     const auto& [held, value] = read.commands[i];

@@ -96,9 +96,8 @@ SamplerKind plan_rods(Context& context, const RowPlaces& rows) {
   RodQuestion read(context);
   read.read();
   const EquilibriumOptions& options = read.at.options;
-  const bool is_plain = read.is_read() && !context.max_iterations && !read.names_start &&
-                        !options.gravity && !read.until && !read.wants_all &&
-                        read.wanted.words == usual_of(context.ask);
+  const bool is_plain = read.is_read() && !context.max_iterations && !read.names_start && !options.gravity &&
+                        !read.until && !read.wants_all && read.wanted.words == usual_of(context.ask);
   if (!is_plain || !rows.are_within({"inputs"})) return {};
   AskedRods asked{.robot = context.robot,
                   .inputs = rows.numbers("inputs", read.at.inputs),

@@ -87,11 +87,10 @@ Report ChainCurves<Space>::begin() {
   ChainWork& memory = work_of(*this);
   ChainOptions options;
   if (this->max_iterations) options.max_iterations = *this->max_iterations;
-  const Report rest =
-      hold_.empty()
-          ? rest_at(*this, chains, at_, branch_, holds_lengths_, state_)
-          : unloaded(chains, {at_, arcs_at(twin_of(*this), at_, branch_.options()), hold_}, state_, memory,
-                     options);
+  const Report rest = hold_.empty()
+                          ? rest_at(*this, chains, at_, branch_, holds_lengths_, state_)
+                          : unloaded(chains, {at_, arcs_at(twin_of(*this), at_, branch_.options()), hold_},
+                                     state_, memory, options);
   if (!is_solved(rest)) return rest;
   return equilibrium(chains, std::vector(state_.hold), wrench_, state_, memory, options);
 }

@@ -29,6 +29,7 @@ struct ChainDrawing : ChainContext<Space> {
 
   ChainState<Space> state_ = {};
   Report found_ = {};
+  bool is_found_ = false;  ///< also where it does not hold by itself
 };
 
 template <class Space>
@@ -57,8 +58,7 @@ Report ChainDrawing<Space>::rest_under() {
     const Report rest = rest_at(*this, chains, *at_.at.pose, at_.branch, true, state_);
     return rest.ok() ? inverse_statics(chains, wrench, state_, memory, options_) : rest;
   }
-  const HeldInputs held =
-      hold_inputs(*this, chains, *at_.inputs, at_.start ? at_.start : this->path_start());
+  const HeldInputs held = hold_inputs(*this, chains, *at_.inputs, at_.start ? at_.start : this->path_start());
   const Report rest = unloaded(chains, held, state_, memory, options_);
   return is_solved(rest) ? equilibrium(chains, held.hold, wrench, state_, memory, options_) : rest;
 }
@@ -71,15 +71,16 @@ void ChainDrawing<Space>::solve() {
     refuse_open_legs(*this, chain_rates(chains, state_.pose, state_.legs).closure_error);
   } else {
     found_ = rest_under();
-    if (is_solved(found_)) note_stability(chains, state_, work_of(*this), found_);
   }
+  is_found_ = is_solved(found_);
+  if (is_found_ && !joints_.are_given()) note_stability(chains, state_, work_of(*this), found_);
 }
 
 template <class Space>
 void ChainDrawing<Space>::tell() {
   this->report(found_);
   this->remember({});
-  if (!is_solved(found_)) return;
+  if (!is_found_) return;
   const AnyPose pose = Space::tidy(state_.pose);
   this->remember(pose);
   answer["pose"] = pose_value(pose);

@@ -187,8 +187,8 @@ void ChainPath<Space>::tell() {
     rows.push_back(row_value(chains, poses_[k], legs));
     worst = std::max(worst, rows.back()["closure_error"].number().value_or(0));
     if (k == 0 && !(worst <= 1e-9))
-      return query.fail(
-          "not_closed", fmt::format("the first pose and the angles contradict each other: a leg misses "
+      return query.fail("not_closed",
+                        fmt::format("the first pose and the angles contradict each other: a leg misses "
                                     "by {:.3g} m; leave the angles out to have them solved",
                                     worst));
   }

@@ -77,7 +77,7 @@ struct ChainQuestion : ChainContext<Space> {
   std::optional<AnyPose> start_ = {};
   Branch branch_ = {};
   AnyPose at_ = home(this->robot);  ///< where tendons are set, or the platform is held, or the search begins
-  std::vector<TendonConstraint> hold_ = {};         ///< of `statics`: tensions or lengths
+  std::vector<TendonConstraint> hold_ = {};          ///< of `statics`: tensions or lengths
   bool is_inverse_ = false, holds_lengths_ = false;  ///< what a pose that is held leaves to tendons
   Load<Space> load_ = {};
   /// @}
@@ -106,11 +106,9 @@ void ChainQuestion<Space>::read_statics() {
         "give tensions, lengths or set_at: a pose at which the tendons are set without load; or inverse: "
         "true with a pose");
   if (ways > 1)
-    query.fail("ambiguous",
-               "tensions, lengths, set_at and inverse each say what holds the robot; keep one");
+    query.fail("ambiguous", "tensions, lengths, set_at and inverse each say what holds the robot; keep one");
   if (is_inverse_ && !pose) query.required("pose", "that the loaded platform is to have");
-  if (pose && !is_inverse_)
-    pose->fail("no_effect", "is asked of inverse statics only; add inverse: true");
+  if (pose && !is_inverse_) pose->fail("no_effect", "is asked of inverse statics only; add inverse: true");
   if (hold_word && !set_at && !is_inverse_)
     hold_word->fail("no_effect", "says what set_at or inverse leaves held; remove it");
   if (start && !tensions && !lengths)

@@ -29,9 +29,7 @@ using Wrench = Vec<double, Space::dof>;
 template <class Space>
 struct ChainContext : Context {
   ChainLegs<Space> chains;  ///< the robot's: a copy, into which directions of motors go that a question gives
-  explicit ChainContext(const Context& context)
-      : Context(context),
-        chains(chains_of<Space>(context.robot)) {}
+  explicit ChainContext(const Context& context) : Context(context), chains(chains_of<Space>(context.robot)) {}
 };
 
 /// A question in the plane or in space.

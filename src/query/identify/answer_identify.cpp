@@ -192,8 +192,7 @@ void ArmFit::tell() {
         fmt::format("the rows agree best with {} ({:.2f}, as they are {:.2f}); map: true takes "
                     "them so",
                     words_of(done->agrees_best), done->agrees_best.agreement, done->agrees_best.as_given));
-  for (const std::string& remark : remarks_of(arm, done->rows, done->parameters.size()))
-    add_message(remark);
+  for (const std::string& remark : remarks_of(arm, done->rows, done->parameters.size())) add_message(remark);
   put_identification(*done, answer);
   const auto computed = predict_markers(done->found.arm, done->rows, request.model, request.stop);
   if (computed) answer["by_row"] = by_row(*done, *computed);

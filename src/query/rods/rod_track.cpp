@@ -143,11 +143,10 @@ void RodPath::read() {
   else
     for (const AnyPose& pose : read_path(*this)) path_.emplace_back(std::get<SpatialPose>(pose));
   if (inputs != 3 && inputs != 6)
-    query.fail(
-        "not_available",
-        fmt::format("a pose is held by six inputs, z, e1 and e2 by three; this robot has {}: follow "
-                    "what changes, by inputs and to: {{inputs, wrench}}",
-                    inputs));
+    query.fail("not_available",
+               fmt::format("a pose is held by six inputs, z, e1 and e2 by three; this robot has {}: follow "
+                           "what changes, by inputs and to: {{inputs, wrench}}",
+                           inputs));
   start_ = read_start_of_inverse(*this);
   options_ = read_equilibrium_options(*this);
 }
@@ -159,8 +158,8 @@ void RodPath::solve() {
   if (!is_begun_) return remember_held(*this, {});
   double length = 0;
   for (std::size_t k = 0; k < path_.size(); ++k) {
-    found_ = k == 0 ? hold(*this, path_[0], options)
-                    : follow_to(*this, path_[k - 1], path_[k], options, length);
+    found_ =
+        k == 0 ? hold(*this, path_[0], options) : follow_to(*this, path_[k - 1], path_[k], options, length);
     if (!found_.is_solved() || note_stop(work.stop, found_.report)) break;
     const RodAnalysis analysis = analyse_equilibrium(robot, work);
     length = analysis.rods.front().length;

@@ -438,7 +438,8 @@ void RodQuestion::solve() {
     if (!begun_.is_solved()) return remember_held(*this, {});
   }
   found_ = sinew::solve(*this, at);
-  if (until && found_.is_solved() && !note_stop(work.stop, found_.report)) growth_ = follow(*this, *until, found_);
+  if (until && found_.is_solved() && !note_stop(work.stop, found_.report))
+    growth_ = follow(*this, *until, found_);
 }
 
 void RodQuestion::tell() {
@@ -455,7 +456,8 @@ void RodQuestion::tell() {
   }
   if (!found_.is_solved()) return;
   put_rod_wants(*this, found_, wanted, at.options.gravity);
-  if (ask == Ask::inverse && at.pose && !wants_all) answer["complete"] = false;  // other lengths may hold it too
+  if (ask == Ask::inverse && at.pose && !wants_all)
+    answer["complete"] = false;  // other lengths may hold it too
 }
 
 void RodQuestion::tell_all() {

@@ -182,8 +182,7 @@ void SectionQuestion::read() {
   const Reader which = query.required("section", "0-based");
   m = static_cast<std::size_t>(which.integer(Range::between(0, robot.section_count() - 1)));
   model = read_tendon_model(*this, kernel::Model::linear);
-  commanded =
-      read_tendons(*this, query.required("changes", "of all sections up to it, or its own"), m);
+  commanded = read_tendons(*this, query.required("changes", "of all sections up to it, or its own"), m);
   if (const auto list = query.optional("measured")) measured = read_tendons(*this, *list, m);
   const auto given = query.optional("tolerance");
   SerialRobot judged = robot;
@@ -214,8 +213,7 @@ void SectionQuestion::tell() {
   if (diagram.report.status == Status::left_domain) return;
   put_diagram(answer, asked.question, diagram);
   constexpr std::string_view kinds[] = {"square", "disc", "actuator"};
-  answer["envelope"] = {{"kind", kinds[static_cast<std::size_t>(envelope.kind)]},
-                                {"limit", envelope.limit}};
+  answer["envelope"] = {{"kind", kinds[static_cast<std::size_t>(envelope.kind)]}, {"limit", envelope.limit}};
   answer["conditional"] = asked.is_conditional;
   if (asked.is_conditional) put_outline(*this, asked, commanded, m);
   if (measured) {

@@ -61,8 +61,8 @@ struct SerialInverseQuestion : SerialContext {
   SerialWants wanted_ = {};
 
   Report found_ = {};
-  std::vector<Bend> bends_ = {};         ///< that stand for the answer; empty: there are none
-  ThreeArcSolutions solutions_ = {};     ///< of the arcs
+  std::vector<Bend> bends_ = {};          ///< that stand for the answer; empty: there are none
+  ThreeArcSolutions solutions_ = {};      ///< of the arcs
   std::vector<std::size_t> within_ = {};  ///< which of them are within the limits
 };
 
