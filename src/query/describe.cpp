@@ -1,4 +1,4 @@
-/// Handler of `describe`: what a robot has.
+/// `describe`: what a robot with a platform has.
 #include "io/quantity.hpp"
 #include "query/context.hpp"
 #include "query/handlers.hpp"

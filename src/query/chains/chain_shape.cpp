@@ -1,4 +1,4 @@
-/// Handler of shape on pseudo-rigid chains.
+/// `shape` of pseudo-rigid chains.
 #include "analysis/chain_shape.hpp"
 #include "io/reader.hpp"
 #include "query/chains/chains.hpp"

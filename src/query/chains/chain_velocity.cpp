@@ -1,4 +1,4 @@
-/// Handlers of velocity and track on pseudo-rigid chains.
+/// `velocity` of pseudo-rigid chains, and `track` along poses.
 #include <fmt/format.h>
 
 #include <algorithm>

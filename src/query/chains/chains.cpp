@@ -1,4 +1,4 @@
-/// Handlers of statics, forward and inverse on pseudo-rigid chains.
+/// `forward`, `inverse` and `statics` of pseudo-rigid chains.
 #include "query/chains/chains.hpp"
 
 #include <fmt/format.h>

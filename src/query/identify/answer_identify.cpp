@@ -1,4 +1,4 @@
-/// Handler of `identify`: parameters of an arm, fitted to measured rows.
+/// `identify`: parameters of an arm, fitted to measured rows.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Handler of `track`: a path of poses into rows of inputs.
+/// `track` of legs that bear no load: a path of poses into rows of inputs.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// Handlers of queries to serial robots: forward, velocity, shape.
+/// `forward`, `velocity` and `shape` of serial robots.
 #include "query/serial/serial.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-/// Handler of `describe` of serial robots.
+/// `describe` of serial robots.
 #include <array>
 
 #include "query/questions.hpp"

@@ -1,4 +1,4 @@
-/// Handler of `diagram`: what the tendons of one section leave it free to do.
+/// `diagram`: what the tendons of one section leave it free to do.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Handler of `inverse` of serial robots: bends that bring the tip where it is wanted.
+/// `inverse` of serial robots: bends that bring the tip where it is wanted.
 #include <fmt/format.h>
 
 #include <numbers>
