@@ -319,5 +319,11 @@ TEST(ArmLegsQuery, FilesAreRefusedWhereTheyAreWrong) {
   EXPECT_EQ(code("defaults.link.sections.backbone.law", "kirchhoff"), "converged");
 }
 
+TEST(ArmLegsQuery, HasNoPathOfPosesAsOtherRobots) {
+  const Json path = ask(tripod, {{{"query", "track"}, {"from", {{"position", {0, 0, 0.2}}}}, {"to", 7}}})[0];
+  EXPECT_EQ(path["status"], "unsupported") << path;
+  EXPECT_NE(path["message"].get<std::string>().find("points"), std::string::npos) << path;
+}
+
 }  // namespace arm_legs_query_test
 }  // namespace sinew::test

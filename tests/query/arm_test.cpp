@@ -94,6 +94,29 @@ TEST(ArmQueries, TheForceThatTensionsTell) {
   EXPECT_NEAR(felt["wrench"][0].get<double>(), 0.05, 1e-4);
   EXPECT_NEAR(felt["wrench"][1].get<double>(), -0.03, 1e-4);
   EXPECT_NEAR(felt["wrench"][2].get<double>(), 0.02, 1e-3);
+  EXPECT_GT(felt["covariance"][0][0].get<double>(), 0);
+  EXPECT_GT(felt["condition"].get<double>(), 1);
+}
+
+/// A covariance of zeros would say that the wrench is known exactly.
+TEST(ArmQueries, TellsNoCovarianceOfAWrenchThatIsNotTold) {
+  const Json loose = ask("tendon-rod", {{{"query", "statics"},
+                                         {"changes", {{0, 0, 0, 0}}},
+                                         {"measured_tensions", {0.1, 0.1, 0.1, 0.1}},
+                                         {"force_alone", false},
+                                         {"max_iterations", 0}}})[0];
+  EXPECT_NE(loose["status"], "converged") << loose;
+  EXPECT_FALSE(loose.contains("covariance")) << loose;
+  EXPECT_FALSE(loose.contains("condition")) << loose;
+  // Tensions are held: that they are measured tells nothing.
+  const Json refused = ask("tendon-rod", {{{"query", "forward"}, {"tensions", {{1, 0, 0, 0}}}},
+                                          {{"query", "statics"},
+                                           {"tensions", {{1, 0, 0, 0}}},
+                                           {"measured_tensions", {1, 0, 0, 0}},
+                                           {"start", "last"}}})[1];
+  EXPECT_EQ(refused["status"], "bad_input") << refused;
+  EXPECT_FALSE(refused.contains("wrench")) << refused;
+  EXPECT_FALSE(refused.contains("tip")) << refused;
 }
 
 TEST(ArmQueries, EveryWantAndModel) {
