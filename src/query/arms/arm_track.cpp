@@ -217,8 +217,6 @@ template <>
 void ArmPath<Arm>::tell_last(const Report& report) {
   const ArmPathPoint& end = points_.back();
   put_point(answer, robot, end);
-  answer["residual"] = report.residual;
-  answer["iterations"] = report.iterations;
   if (words_.has(Want::shape)) {
     Value along = Value::list();
     for (const std::vector<double>& tensions : end.tensions) along.push_back(Value(tensions));
@@ -239,6 +237,8 @@ void ArmPath<Arm>::tell_last(const Report& report) {
   }
   answer["motor_work"] = of_motors;
   answer["friction_loss"] = of_friction;
+  answer["residual"] = report.residual;
+  answer["iterations"] = report.iterations;
 }
 template <>
 void ArmPath<ArmLegs>::tell_last(const Report& report) {
