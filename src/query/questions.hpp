@@ -1,20 +1,24 @@
 /// @file questions.hpp
 /// The handler of all questions, whatever is asked and whatever answers.
 #pragma once
+#include <concepts>
+
 #include "query/loads.hpp"
 
 namespace sinew::inline v1 {
 
-/// A question is read, solved once, and told. `Asked` is what one kind of mechanics is asked; made of a
-/// Context, it is a Question, too, and has
-///   read()      takes all fields and computes nothing: what places the robot, what acts on it, where a
-///   search begins,
-///               what is wanted;
-///   solve()     finds what the question asks for; where this is left out it is found as it is told;
-///   tell()      writes how that went, and what is wanted of it;
-///   wants_all   of some: whether other solutions are wanted, too, which
-///   tell_all()  then finds and writes.
+/// What one kind of mechanics is asked. Beside what is named here some have
+/// * `solve()`, which finds it; where there is none it is found as it is told;
+/// * `wants_all`, whether other solutions are wanted, too, and `tell_all()`, which finds and writes them.
 template <class Asked>
+concept AskedQuestion = std::derived_from<Asked, Question> && std::constructible_from<Asked, Context&> &&
+    requires(Asked asked) {
+  asked.read();  // takes all fields, and computes nothing
+  asked.tell();  // writes how it went, and what is wanted of it
+};
+
+/// A question is read, solved once, and told.
+template <AskedQuestion Asked>
 void answer_question(Context& context) {
   Asked asked(context);
   asked.read();
