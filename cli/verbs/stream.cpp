@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <exception>
 
@@ -40,6 +41,8 @@ class Lines {
   }
 
   int error() const { return error_; }
+  /// Whether the next line is read already: it does not have to be waited for.
+  bool has_next() const { return std::memchr(buffer_.data() + begin_, '\n', end_ - begin_) != nullptr; }
 
  private:
   bool fill() {
@@ -55,16 +58,45 @@ class Lines {
   int error_ = 0;
 };
 
-std::string answer_of(Session& session, Lines::Kind kind, const std::string& line) {
+void answer_to(Session& session, Lines::Kind kind, const std::string& line, std::string& answer) {
   try {
-    if (kind == Lines::Kind::whole) return session.answer(line);
-    return json_error(
-        {{"too_large", "query", "the line is longer than 1 MiB; ask in smaller queries, one a line."}});
+    if (kind == Lines::Kind::whole)
+      session.answer(line, answer);
+    else
+      answer = json_error(
+          {{"too_large", "query", "the line is longer than 1 MiB; ask in smaller queries, one a line."}});
   } catch (const std::exception& error) {
-    return json_error(
-        {{"internal", "query", fmt::format("this query failed inside sinew: {}", error.what())}});
+    answer =
+        json_error({{"internal", "query", fmt::format("this query failed inside sinew: {}", error.what())}});
   }
 }
+
+/// Answers on their way out. Writing costs as much as a quick answer: where nobody looks on, those of lines
+/// that wait together go together. Such an answer waits for the next ones, at most this long and one
+/// question.
+class Answers {
+ public:
+  void add(std::string_view answer) {
+    if (lines_.empty()) first_ = Clock::now();
+    lines_.append(answer) += '\n';
+  }
+  bool are_due() const {
+    return is_watched_ || lines_.size() >= most_ || Clock::now() - first_ >= longest_wait_;
+  }
+  void write() {
+    print(lines_);
+    lines_.clear();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::size_t most_ = 65536;  // bytes
+  static constexpr std::chrono::milliseconds longest_wait_{2};
+
+  const bool is_watched_ = isatty(STDOUT_FILENO) != 0;
+  std::string lines_;
+  Clock::time_point first_;
+};
 
 }  // namespace
 
@@ -74,11 +106,16 @@ int run_query(const Arguments& arguments) {
   finish_what_is_begun();
   session->stop_on(stop_token());  // the line under way is answered, with status stopped
   Lines lines;
-  std::string line;
+  Answers answers;
+  std::string line, answer;
   for (Lines::Kind kind; (kind = lines.next(line)) != Lines::Kind::end;) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    print(answer_of(*session, kind, line) + '\n');
+    if (line.find_first_not_of(" \t\r") != std::string::npos) {
+      answer_to(*session, kind, line, answer);
+      answers.add(answer);
+    }
+    if (!lines.has_next() || answers.are_due()) answers.write();
   }
+  answers.write();
   if (lines.error()) {
     message(fmt::format("sinew query: stdin cannot be read: {}", std::strerror(lines.error())));
     return internal_error;

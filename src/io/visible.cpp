@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 
 #include "io/parse.hpp"
@@ -22,10 +24,28 @@ bool steers(unsigned code) {
          (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
 }
 
+/// So many characters at the beginning are of ASCII and none controls anything: a multiple of eight, as many
+/// as are looked at in one.
+std::size_t plain_beginning(std::string_view text) {
+  constexpr std::uint64_t each = 0x0101010101010101U, high = 0x80 * each;
+  std::size_t count = 0;
+  for (std::uint64_t eight = 0; count + sizeof(eight) <= text.size(); count += sizeof(eight)) {
+    std::memcpy(&eight, text.data() + count, sizeof(eight));
+    const std::uint64_t below_space = eight - 0x20 * each,
+                        above_tilde = eight + each;  // in a byte's high bit
+    if (((eight | below_space | above_tilde) & high) != 0) break;
+  }
+  return count;
+}
+
 std::string spelled(std::string_view text, bool is_line) {
   std::string result;
   result.reserve(text.size());
   for (std::size_t i = 0; i < text.size();) {
+    const std::size_t plain = plain_beginning(text.substr(i));
+    result.append(text, i, plain);
+    i += plain;
+    if (i == text.size()) break;
     const auto byte = static_cast<unsigned char>(text[i]);
     if (byte < 0x80) {
       const bool stays = (byte >= 0x20 && byte != 0x7F) || (!is_line && (byte == '\n' || byte == '\t'));

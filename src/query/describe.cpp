@@ -120,8 +120,8 @@ struct PlatformDescription : Context {
 
 void PlatformDescription::tell() {
   Value inputs = Value::list(), legs = Value::list();
-  with_legs(robot, [&](const auto& platform) {
-    platform.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+  with_legs(robot, [&](const auto& typed) {
+    typed.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
       if (!place.is_tied) add_inputs(inputs, leg, static_cast<std::size_t>(i));
       legs.push_back(leg_value(leg, place));
     });

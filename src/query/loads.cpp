@@ -25,9 +25,11 @@ std::vector<double> read_forces(const Reader& given, std::size_t count, const Ra
   return forces;
 }
 
-bool read_all(Question& question) {
+bool read_all(Question& question, bool has_until) {
   const auto all = question.query.optional("all");
-  return all && all->boolean();
+  if (!all || !all->boolean()) return false;
+  if (has_until) all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
+  return true;
 }
 
 void put_solutions(Question& question, StopToken stop, Value solutions) {

@@ -58,7 +58,9 @@ void put_growth(Value& answer, const Path& path) {
 /// One number for all, or one each.
 std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range, bool one_for_all);
 
-bool read_all(Question& question);
+/// `all`: many solutions are wanted.
+/// @param has_until a load that grows is followed in place of that: a question has one of the two
+bool read_all(Question& question, bool has_until = false);
 /// `solutions` that were found by many starts, without proof.
 void put_solutions(Question& question, StopToken stop, Value solutions);
 

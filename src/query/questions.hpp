@@ -3,7 +3,7 @@
 #pragma once
 #include <concepts>
 
-#include "query/loads.hpp"
+#include "query/context.hpp"
 
 namespace sinew::inline v1 {
 
@@ -28,17 +28,6 @@ void answer_question(Context& context) {
   asked.tell();
   if constexpr (requires { asked.tell_all(); })
     if (asked.wants_all) asked.tell_all();
-}
-
-/// `until` and `all`, of which a question has one: a load that grows is followed, or many solutions are
-/// found.
-template <class Asked>
-void read_until_or_all(Asked& asked) {
-  asked.until = asked.read_until();
-  const auto all = asked.query.optional("all");
-  asked.wants_all = all && all->boolean();
-  if (asked.until && asked.wants_all)
-    all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
 }
 
 }  // namespace sinew::inline v1

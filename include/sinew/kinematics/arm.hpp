@@ -168,7 +168,8 @@ struct ArmSensed {
   Report report;                        ///< `singular` where the measurement does not tell
   std::array<double, 6> wrench{};       ///< base axes [N, N m]
   std::array<double, 36> covariance{};  ///< of it; of a force alone the moment's part is 0 [N², N² m, N² m²]
-  double misfit = 0;                    ///< root mean square of what stays, in standard deviations [1]
+  /// Root mean square of what stays, in standard deviations [1]; not a number where nothing was compared.
+  double misfit = 0;
   /// How much better the best known direction of the wrench is known than the worst, moments over the arm's
   /// length [1].
   double condition = 0;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {
@@ -59,7 +60,7 @@ struct FoundWrench {
   Report report;
   std::array<double, 6> wrench{};       ///< all of it [N, N m]
   std::array<double, 36> covariance{};  ///< of its unknowns [N², N² m, N² m²]
-  double misfit = 0;                    ///< root mean square [1]
+  double misfit = not_a_number;         ///< root mean square [1]; not a number: nothing was compared
   double condition =
       0;  ///< of the wrench, moments over the length: best known over worst known direction [1]
 };

@@ -1,7 +1,6 @@
 /// `describe` of arms and of platforms on arms.
 #include <cmath>
 
-#include "io/quantity.hpp"
 #include "query/arms/arms.hpp"
 #include "query/questions.hpp"
 #include "sinew/base/export.hpp"

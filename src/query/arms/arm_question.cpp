@@ -18,10 +18,6 @@ constexpr std::string_view other_beginnings(const Arm&) { return "all: true look
 constexpr std::string_view other_beginnings(const ArmLegs&) {
   return "all: true looks from other poses, too";
 }
-constexpr std::string_view of_friction(const Arm&) {
-  return "its tendons are taken as if they did not rub; track follows a path with their friction";
-}
-constexpr std::string_view of_friction(const ArmLegs&) { return "tendons are taken as if they did not rub"; }
 
 Value curvatures_value(const std::vector<std::array<double, 3>>& parts) {
   std::vector<double> numbers;
@@ -71,22 +67,39 @@ Value solutions_of(ArmLegsContext& context, std::span<const TendonCommand> comma
 
 /// @}
 
+/// A load that grows, of six numbers also in the plane.
+std::optional<Until<Spatial>> read_until_of(Question& question, bool is_planar) {
+  if (!is_planar) return read_until<Spatial>(question);
+  const auto in_plane = read_until<Planar>(question);
+  if (!in_plane) return {};
+  Until<Spatial> in_space{.direction = Vec<double, 6>::Zero(), .limit = in_plane->limit};
+  for (int i = 0; const std::size_t k : plane_axes)
+    in_space.direction[static_cast<Eigen::Index>(k)] = in_plane->direction[i++];
+  return in_space;
+}
+std::array<double, 6> direction_of(const Until<Spatial>& until) {
+  std::array<double, 6> direction{};
+  std::ranges::copy(until.direction, direction.begin());
+  return direction;
+}
+
+/// Whether nothing was solved of it.
+template <class State>
+bool is_refused(const State& state) {
+  return state.report.status == Status::bad_input || state.report.status == Status::unsupported ||
+         state.tensions.empty();
+}
+
 }  // namespace
 
-/// `start`: `last`, or a shape, which of statics and inverse it may not be.
+/// A shape of an arm, where the search begins.
 template <>
-void ArmQuestion<Arm>::read_start() {
-  const Node* given = query.node()->find("start");
-  const bool may_be_shape = ask != Ask::inverse && ask != Ask::statics;
-  if (!given || given->kind != Node::Kind::list || !may_be_shape) return read_arm_start(*this, options.arm);
+void ArmQuestion<Arm>::read_shape() {
   start = read_curvatures(query.required("start"), "arm");
 }
-/// The same: a solution's pose and curvatures.
+/// A solution's pose and curvatures.
 template <>
-void ArmQuestion<ArmLegs>::read_start() {
-  const Node* given = query.node()->find("start");
-  const bool may_be_shape = ask != Ask::inverse && ask != Ask::statics;
-  if (!given || given->kind != Node::Kind::map || !may_be_shape) return read_arm_start(*this, options.arm);
+void ArmQuestion<ArmLegs>::read_shape() {
   Reader shape = query.required("start");
   start = ArmLegsStart{read_pose_of(robot.is_planar, shape.required("pose", "where the platform is")), {}};
   const Reader curvatures =
@@ -96,15 +109,15 @@ void ArmQuestion<ArmLegs>::read_start() {
   shape.close();
 }
 
+/// `start`: `last`, or a shape, which of statics and inverse it may not be.
 template <class Arms>
-std::optional<Until<Spatial>> ArmQuestion<Arms>::read_until() {
-  if (!is_planar(robot)) return sinew::read_until<Spatial>(*this);
-  const auto in_plane = sinew::read_until<Planar>(*this);
-  if (!in_plane) return {};
-  Until<Spatial> in_space{.direction = Vec<double, 6>::Zero(), .limit = in_plane->limit};
-  for (int i = 0; const std::size_t k : plane_axes)
-    in_space.direction[static_cast<Eigen::Index>(k)] = in_plane->direction[i++];
-  return in_space;
+void ArmQuestion<Arms>::read_start() {
+  constexpr Node::Kind of_shapes = std::is_same_v<Arms, Arm> ? Node::Kind::list : Node::Kind::map;
+  const Node* given = query.node()->find("start");
+  if (given && given->kind == of_shapes && ask != Ask::inverse && ask != Ask::statics)
+    read_shape();
+  else
+    read_arm_start(*this, options.arm);
 }
 
 /// Where the tip was seen: nothing else is known of it.
@@ -161,7 +174,10 @@ void ArmQuestion<Arms>::read() {
     commands = read_arm_commands(tendon_counts(robot), query);
   load = read_arm_load(robot, query);
   read_start();
-  if (ask == Ask::forward) read_until_or_all(*this);
+  if (ask == Ask::forward) {
+    until = read_until_of(*this, is_planar(robot));
+    wants_all = read_all(*this, until.has_value());
+  }
   if (ask == Ask::statics) read_measured();
   if (ask == Ask::inverse)
     if (const auto limit = query.optional("tension_limit"))
@@ -178,9 +194,7 @@ void ArmQuestion<Arm>::solve_forward() {
     found_ = state_.report;
     return;
   }
-  std::array<double, 6> direction{};
-  std::ranges::copy(until->direction, direction.begin());
-  growth_ = arm_follow_load(robot, commands, load, direction, until->limit, options.arm, work);
+  growth_ = arm_follow_load(robot, commands, load, direction_of(*until), until->limit, options.arm, work);
   state_ = growth_->state;
   found_ = state_.report;
   if (!found_.ok()) growth_.reset();  // there is nothing to begin with
@@ -190,25 +204,10 @@ void ArmQuestion<ArmLegs>::solve_forward() {
   state_ = start ? arm_legs_forward_from(robot, *start, commands, load, options.arm, work)
                  : arm_legs_forward(robot, commands, load, options.arm, work);
   if (until && state_.report.ok()) {
-    std::array<double, 6> direction{};
-    std::ranges::copy(until->direction, direction.begin());
-    growth_ = arm_legs_follow_load(robot, direction, until->limit, work);
+    growth_ = arm_legs_follow_load(robot, direction_of(*until), until->limit, work);
     state_ = growth_->state;
   }
   found_ = state_.report;
-}
-
-template <>
-void ArmQuestion<Arm>::solve_inverse() {
-  const ArmInverse found = arm_inverse(robot, target, load, options, work);
-  found_ = found.report;
-  state_ = found.state;
-}
-template <>
-void ArmQuestion<ArmLegs>::solve_inverse() {
-  const ArmLegsInverse found = arm_legs_inverse(robot, target, load, options, work);
-  found_ = found.report;
-  state_ = found.state;
 }
 
 template <>
@@ -230,8 +229,12 @@ void ArmQuestion<ArmLegs>::solve_statics() {
 template <class Arms>
 void ArmQuestion<Arms>::solve() {
   switch (ask) {
-    case Ask::inverse:
-      return solve_inverse();
+    case Ask::inverse: {
+      const auto found = Types::inverse(robot, target, load, options, work);
+      found_ = found.report;
+      state_ = found.state;
+      return;
+    }
     case Ask::statics:
       solve_statics();
       if (!sensed_) return;
@@ -240,7 +243,7 @@ void ArmQuestion<Arms>::solve() {
       return;
     default:
       solve_forward();
-      if (growth_ && growth_->end == LoadEnd::stopped) found_.status = Status::stopped;
+      if (growth_ && growth_->end == LoadEnd::stopped) found_.status = state_.report.status = Status::stopped;
   }
 }
 
@@ -248,14 +251,15 @@ template <class Arms>
 void ArmQuestion<Arms>::tell() {
   const bool planar = is_planar(robot);
   this->report(found_);
-  if (has_friction(robot)) this->add_message(of_friction(robot));
+  if (has_friction(robot)) this->add_message(without_friction(robot));
   if (state_.report.status == Status::stalled && ask == Ask::forward && !wants_all && !until)
     this->add_message(other_beginnings(robot));
   if (found_.status == Status::bad_input || is_refused(state_)) return;
   put_arm_state(*this, state_, found_);
   if (growth_) put_growth(answer, *growth_);
+  if (held_at && !holding_) return;
   if (holding_) answer["wrench"] = wrench_value(planar, *holding_);
-  if (sensed_) {
+  if (sensed_ && std::isfinite(sensed_->misfit)) {
     answer["wrench"] = wrench_value(planar, sensed_->wrench);
     if (found_.ok()) {
       answer["covariance"] = matrix_value(planar, sensed_->covariance.data(), 6, 6, true, true);

@@ -24,8 +24,8 @@ struct ArmQuestion : ArmContextOf<Arms> {
   ArmTarget target = {};                      ///< of `inverse`
   typename Types::Measurement measured = {};  ///< of `statics`, with `force_alone`
   bool force_alone = true;
-  std::optional<SE3<double>> held_at =
-      {};  ///< of `statics`: the platform is held there, and nothing measured
+  /// Of `statics`: the platform is held there, and nothing is measured.
+  std::optional<SE3<double>> held_at = {};
   Wants words = {};
   int samples = 0;  ///< of `shape`
   /// @}
@@ -34,14 +34,13 @@ struct ArmQuestion : ArmContextOf<Arms> {
   void solve();
   void tell();
   void tell_all();
-  std::optional<Until<Spatial>> read_until();
 
  private:
   void read_start();
+  void read_shape();
   void read_measured();
   void read_seen(bool has_tensions);
   void solve_forward();
-  void solve_inverse();
   void solve_statics();
 
   /// @name What was found

@@ -8,7 +8,6 @@
 #include "io/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "query/questions.hpp"
-#include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
 
@@ -46,6 +45,12 @@ constexpr std::string_view form_of_points(const Arm&) {
 constexpr std::string_view form_of_points(const ArmLegs&) {
   return "the path: [{tensions, changes or pose, wrench, ...}, ...]";
 }
+constexpr std::string_view form_of_the_first(const Arm&) {
+  return "of the first point; or changes: what holds the tendons";
+}
+constexpr std::string_view form_of_the_first(const ArmLegs&) {
+  return "of the first point; or changes, or a pose";
+}
 
 /// Where inputs are to lead, which a point of a platform's path may say in their place. Whether it does.
 bool read_pose_of_step(const Arm&, Reader&, ArmStep&, bool) { return false; }
@@ -61,8 +66,9 @@ bool read_pose_of_step(const ArmLegs& robot, Reader& point, ArmLegsStep& step, b
 /// @}
 
 /// The points of the path; what a point does not say is as at the point before, of loads as in the question.
-template <class Step, class Arms>
-std::vector<Step> read_points(ArmContextOf<Arms>& context) {
+template <class Arms>
+std::vector<typename ArmTypes<Arms>::Step> read_points(ArmContextOf<Arms>& context) {
+  using Step = typename ArmTypes<Arms>::Step;
   Reader& query = context.query;
   const Arms& robot = context.robot;
   const auto load = read_arm_load(robot, query);
@@ -77,7 +83,7 @@ std::vector<Step> read_points(ArmContextOf<Arms>& context) {
     const bool has_inputs = point.has("tensions") || point.has("changes");
     if (has_inputs) step.commands = read_arm_commands(tendon_counts(robot), point);
     if (!read_pose_of_step(robot, point, step, has_inputs) && !has_inputs && path.empty())
-      point.required("tensions", "of the first point; or changes: what holds the tendons");
+      point.required("tensions", form_of_the_first(robot));
     step.load = read_arm_load(robot, point, load);
     point.close();
     path.push_back(std::move(step));
@@ -134,10 +140,6 @@ Value in_motion(ArmContext& context, std::span<const double> motions) {
 const ArmState& state_of(const ArmPathPoint& point) { return point.state; }
 const ArmLegsState& state_of(const ArmLegsState& point) { return point; }
 
-/// Whether it was begun; else nothing is known but why not.
-bool is_begun(const ArmPathPoint& point) { return !point.tensions.empty(); }
-bool is_begun(const ArmLegsState& point) { return !point.tensions.empty(); }
-
 /// A row's numbers, or those of where a path ends.
 void put_point(Value& value, const Arm& arm, const ArmPathPoint& point) {
   put_arm_numbers(value, arm, point.state);
@@ -155,8 +157,8 @@ void put_work(Value&, const ArmLegsState&) {}
 /// @tparam Arms Arm or ArmLegs
 template <class Arms>
 struct ArmPath : ArmContextOf<Arms> {
-  using Step = std::conditional_t<std::is_same_v<Arms, Arm>, ArmStep, ArmLegsStep>;
-  using Point = std::conditional_t<std::is_same_v<Arms, Arm>, ArmPathPoint, ArmLegsState>;
+  using Step = typename ArmTypes<Arms>::Step;
+  using Point = typename ArmTypes<Arms>::Point;
   using ArmContextOf<Arms>::ArmContextOf;
   using ArmContextOf<Arms>::robot;
   using Question::answer;
@@ -197,7 +199,7 @@ void ArmPath<ArmLegs>::read_wanted() {
 template <class Arms>
 void ArmPath<Arms>::read() {
   options_.arm = read_arm_options(*this, robot);
-  path_ = read_points<Step>(*this);
+  path_ = read_points(*this);
   read_arm_start(*this, options_.arm);
   read_wanted();
   samples_ = read_samples(*this, words_, 60, 2000);
@@ -242,8 +244,10 @@ void ArmPath<Arm>::tell_last(const Report& report) {
 }
 template <>
 void ArmPath<ArmLegs>::tell_last(const Report& report) {
-  put_arm_state(*this, points_.back(), report);
-  if (has_friction(robot)) add_message("tendons are taken as if they did not rub");
+  Report of_end = report;
+  if (!arrives_) of_end.residual = points_.back().report.residual;  // of the nearest that was found
+  put_arm_state(*this, points_.back(), of_end);
+  if (has_friction(robot)) add_message(without_friction(robot));
   if (arrives_) put_arm_wants(*this, points_.back(), words_, samples_);
 }
 
@@ -252,7 +256,7 @@ void ArmPath<Arms>::tell() {
   Report report = state_of(points_.back()).report;
   arrives_ = report.ok();
   this->report(report);
-  if (!is_begun(points_.back())) return;
+  if (points_.back().tensions.empty()) return;  // refused: no step was tried
 
   const auto steps = static_cast<std::size_t>(path_.front().divisions);
   const std::size_t reached = arrives_ ? points_.size() : points_.size() - 1;
@@ -270,9 +274,8 @@ void ArmPath<Arms>::tell() {
     put_work(row, points_[k]);
     rows.push_back(std::move(row));
   }
-  if (arrives_)
-    report.residual = worst;
-  else
+  report.residual = worst;
+  if (!arrives_)
     answer["message"] = fmt::format("the path ends on its way to points[{}], in step {} of {}: {}",
                                     reached / steps, reached % steps + 1, steps, report.message.view());
   tell_last(report);

@@ -24,6 +24,9 @@ struct ArmTypes<Arm> {
   using Growth = ArmLoadPath;
   using Measurement = ArmMeasurement;
   using Sensed = ArmSensed;
+  using Step = ArmStep;
+  using Point = ArmPathPoint;
+  static constexpr auto& inverse = arm_inverse;
   static const Arm& of(const Robot& robot) { return *robot.arm(); }
   static ArmWorkspace& of(const sinew::Workspace& work) { return *work.arm; }
 };
@@ -36,6 +39,9 @@ struct ArmTypes<ArmLegs> {
   using Growth = ArmLegsLoadPath;
   using Measurement = ArmLegsMeasurement;
   using Sensed = ArmLegsSensed;
+  using Step = ArmLegsStep;
+  using Point = ArmLegsState;
+  static constexpr auto& inverse = arm_legs_inverse;
   static const ArmLegs& of(const Robot& robot) { return *robot.arm_legs(); }
   static ArmLegsWorkspace& of(const sinew::Workspace& work) { return *work.arm_legs; }
 };
@@ -130,12 +136,6 @@ void answer_arms_identify(Context& context);
 void put_arm_numbers(Value& answer, const Arm& arm, const ArmState& state);
 void put_arm_numbers(Value& answer, const ArmLegs& robot, const ArmLegsState& state);
 /// @}
-/// Whether nothing was solved of it.
-template <class State>
-bool is_refused(const State& state) {
-  return state.report.status == Status::bad_input || state.report.status == Status::unsupported ||
-         state.tensions.empty();
-}
 /// All that is told of an equilibrium always, or of the best iterate.
 /// @param report of the question
 template <class Arms>
@@ -153,5 +153,12 @@ void put_arm_shape(ArmLegsContext& context, const ArmLegsState& state, int sampl
 /// Whether friction is known of any of its tendons.
 bool has_friction(const Arm& arm);
 bool has_friction(const ArmLegs& robot);
+/// What is said then of equilibria.
+constexpr std::string_view without_friction(const Arm&) {
+  return "its tendons are taken as if they did not rub; track follows a path with their friction";
+}
+constexpr std::string_view without_friction(const ArmLegs&) {
+  return "tendons are taken as if they did not rub";
+}
 
 }  // namespace sinew::inline v1

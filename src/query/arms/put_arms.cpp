@@ -1,7 +1,6 @@
 /// What is told of equilibria of arms and of platforms on arms.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 
 #include "math/linalg.hpp"

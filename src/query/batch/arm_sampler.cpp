@@ -218,23 +218,25 @@ class ArmSampler {
 
 SamplerKind plan_arms(Context& of_robot, const RowPlaces& rows) {
   if (of_robot.ask != Ask::forward) return {};
-  ArmQuestion<Arm> read(of_robot);
-  read.read();
-  const bool is_plain = read.is_read() && !read.query.has("start") && !read.until && !read.wants_all &&
-                        read.words == usual_of(read.ask);
+  ArmQuestion<Arm> question(of_robot);
+  question.read();
+  const bool is_plain = question.is_read() && !question.query.has("start") && !question.until &&
+                        !question.wants_all && question.words == usual_of(question.ask);
   if (!is_plain || !rows.are_within({"tensions", "changes", "wrench"})) return {};
-  AskedArm asked{
-      .arm = read.robot, .options = read.options.arm, .load = read.load, .is_path = rows.is_path()};
-  std::vector<std::size_t> next(read.robot.sections.size());
-  for (std::size_t i = 0; i < read.commands.size(); ++i) {
-    const auto& [held, value] = read.commands[i];
-    const auto section = static_cast<std::size_t>(read.robot.tendons[i].section());
+  AskedArm asked{.arm = question.robot,
+                 .options = question.options.arm,
+                 .load = question.load,
+                 .is_path = rows.is_path()};
+  std::vector<std::size_t> next(question.robot.sections.size());
+  for (std::size_t i = 0; i < question.commands.size(); ++i) {
+    const auto& [held, value] = question.commands[i];
+    const auto section = static_cast<std::size_t>(question.robot.tendons[i].section());
     const std::string_view list = held == TendonHeld::tension ? "tensions" : "changes";
     asked.held.push_back(held);
     asked.tendons.push_back(
         rows.number(joined(joined(list, section), next[section]++), value, range_of(held)));
   }
-  asked.wrench = rows.numbers("wrench", read.load.wrench);
+  asked.wrench = rows.numbers("wrench", question.load.wrench);
   for (const std::string& output : rows.outputs()) {
     const auto found = output_of(output, asked.arm);
     if (!found) return {};

@@ -234,18 +234,18 @@ class PoseSampler {
 SamplerKind plan_poses(Context& context, const RowPlaces& rows) {
   if (!has_velocity_batch(context.robot)) return {};
   if (context.ask != Ask::inverse && context.ask != Ask::velocity) return {};
-  KinematicQuestion read(context);
-  read.read();
-  Branch& branch = read.given.branch;
-  const bool is_plain = read.is_read() && !read.max_iterations && read.near_inputs.empty() &&
-                        !read.wants_all && !read.given.inputs && branch.curvature.empty() &&
-                        read.wanted.twist.empty() && !read.wanted.along &&
-                        read.wanted.words == usual_of(read.ask);
+  KinematicQuestion question(context);
+  question.read();
+  Branch& branch = question.given.branch;
+  const bool is_plain = question.is_read() && !question.max_iterations && question.near_inputs.empty() &&
+                        !question.wants_all && !question.given.inputs && branch.curvature.empty() &&
+                        question.wanted.twist.empty() && !question.wanted.along &&
+                        question.wanted.words == usual_of(question.ask);
   AskedPoses asked{.robot = context.robot,
                    .is_inverse = context.ask == Ask::inverse,
                    .bending = std::move(branch.bending),
                    .elbow = std::move(branch.elbow)};
-  if (!is_plain || !put_pose(read.given.at, rows, asked)) return {};
+  if (!is_plain || !put_pose(question.given.at, rows, asked)) return {};
   for (const std::string& output : rows.outputs()) {
     const auto found = output_of(output, asked, static_cast<std::size_t>(leg_count(context.robot)));
     if (!found) return {};

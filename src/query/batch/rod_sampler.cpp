@@ -93,14 +93,15 @@ class RodSampler {
 
 SamplerKind plan_rods(Context& context, const RowPlaces& rows) {
   if (context.ask != Ask::forward || !has_equilibrium_batch(context.robot)) return {};
-  RodQuestion read(context);
-  read.read();
-  const EquilibriumOptions& options = read.at.options;
-  const bool is_plain = read.is_read() && !context.max_iterations && !read.names_start && !options.gravity &&
-                        !read.until && !read.wants_all && read.wanted.words == usual_of(context.ask);
+  RodQuestion question(context);
+  question.read();
+  const EquilibriumOptions& options = question.at.options;
+  const bool is_plain = question.is_read() && !context.max_iterations && !question.names_start &&
+                        !options.gravity && !question.until && !question.wants_all &&
+                        question.wanted.words == usual_of(context.ask);
   if (!is_plain || !rows.are_within({"inputs"})) return {};
   AskedRods asked{.robot = context.robot,
-                  .inputs = rows.numbers("inputs", read.at.inputs),
+                  .inputs = rows.numbers("inputs", question.at.inputs),
                   .wrench = options.wrench,
                   .start = rows.is_path() ? RowStart::row_before : RowStart::home};
   for (const std::string& output : rows.outputs()) {

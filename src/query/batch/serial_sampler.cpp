@@ -127,19 +127,19 @@ class SerialSampler {
 }  // namespace
 
 SamplerKind plan_sections(Context& of_robot, const RowPlaces& rows) {
-  SerialQuestion read(of_robot);
-  const auto is_extensible = std::ranges::any_of(read.robot.sections, &Section::is_extensible);
-  if (read.ask != Ask::forward || is_extensible) return {};
-  read.read();
-  const bool is_plain = read.is_read() && !read.max_iterations && !read.shape.changes &&
-                        read.pay_out.empty() && read.wanted.words == usual_of(read.ask);
+  SerialQuestion question(of_robot);
+  const auto is_extensible = std::ranges::any_of(question.robot.sections, &Section::is_extensible);
+  if (question.ask != Ask::forward || is_extensible) return {};
+  question.read();
+  const bool is_plain = question.is_read() && !question.max_iterations && !question.shape.changes &&
+                        question.pay_out.empty() && question.wanted.words == usual_of(question.ask);
   if (!is_plain || !rows.are_within({"configuration"})) return {};
-  AskedSections asked{.robot = read.robot, .model = read.model};
-  for (std::size_t m = 0; m < read.shape.given.size(); ++m) {
-    const auto section = rows.numbers(joined("configuration", m), read.shape.given[m], bend_range);
+  AskedSections asked{.robot = question.robot, .model = question.model};
+  for (std::size_t m = 0; m < question.shape.given.size(); ++m) {
+    const auto section = rows.numbers(joined("configuration", m), question.shape.given[m], bend_range);
     asked.configuration.push_back({section[0], section[1]});
   }
-  asked.configuration.resize(read.robot.sections.size());
+  asked.configuration.resize(question.robot.sections.size());
   for (const std::string& output : rows.outputs()) {
     if (const auto tendon = tendon_of(output, asked.robot))
       asked.outputs.emplace_back(*tendon);

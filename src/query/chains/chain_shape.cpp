@@ -74,15 +74,14 @@ void ChainDrawing<Space>::solve() {
   }
   is_found_ = is_solved(found_);
   if (is_found_ && !joints_.are_given()) note_stability(chains, state_, work_of(*this), found_);
+  this->remember(is_found_ ? std::optional<AnyPose>(Space::tidy(state_.pose)) : std::nullopt);
 }
 
 template <class Space>
 void ChainDrawing<Space>::tell() {
   this->report(found_);
-  this->remember({});
   if (!is_found_) return;
   const AnyPose pose = Space::tidy(state_.pose);
-  this->remember(pose);
   answer["pose"] = pose_value(pose);
   put_shape(answer, chain_shape(chains, state_.pose, state_.legs));
   answer["frames"] = Value::list({pose_value(pose)});

@@ -64,7 +64,6 @@ struct ChainQuestion : ChainContext<Space> {
   void solve();
   void tell();
   void tell_all();
-  std::optional<Until<Space>> read_until() { return sinew::read_until<Space>(*this); }
 
  private:
   void read_statics();
@@ -77,8 +76,9 @@ struct ChainQuestion : ChainContext<Space> {
   std::optional<AnyPose> start_ = {};
   Branch branch_ = {};
   AnyPose at_ = home(this->robot);  ///< where tendons are set, or the platform is held, or the search begins
-  std::vector<TendonConstraint> hold_ = {};          ///< of `statics`: tensions or lengths
-  bool is_inverse_ = false, holds_lengths_ = false;  ///< what a pose that is held leaves to tendons
+  std::vector<TendonConstraint> hold_ = {};  ///< of `statics`: tensions or lengths
+  bool is_inverse_ = false;                  ///< the platform is held at `at_`
+  bool holds_lengths_ = false;               ///< there tendons keep their lengths, not their tensions
   Load<Space> load_ = {};
   /// @}
 
@@ -133,10 +133,8 @@ void ChainQuestion<Space>::read() {
     read_statics();
   }
   load_ = read_load<Space>(*this);
-  if (ask == Ask::statics)
-    until = read_until();
-  else
-    read_until_or_all(*this);
+  until = read_until<Space>(*this);
+  if (ask != Ask::statics) wants_all = read_all(*this, until.has_value());
   if (!is_inverse_) return;
   if (until) query.fail("ambiguous", "until follows a load, inverse holds a pose; leave until out");
   if (load_.threshold)

@@ -191,6 +191,7 @@ void KinematicQuestion::solve_forward() {
                                .trace = trace_};
   const Forward result = forward(robot, *given.inputs, options, work);
   found_ = {result.report, result.pose, {result.coordinates.begin(), result.coordinates.end()}};
+  is_searched_ = result.report.status != Status::left_domain;
   remember(result.ok() ? std::optional(result.pose) : std::nullopt);
 }
 
@@ -198,8 +199,11 @@ void KinematicQuestion::solve_forward() {
 void KinematicQuestion::find_modes() {
   modes_ = assembly_modes(robot, *given.inputs, work);
   found_ = {modes_->report, {}, {modes_->coordinates.begin(), modes_->coordinates.end()}};
-  remember({});
-  if (modes_->poses.empty()) return;
+  has_pose_ = !modes_->poses.empty();
+  if (!has_pose_) {
+    remember({});
+    return;
+  }
   const std::size_t chosen = nearest_pose(robot, modes_->poses, given.start.value_or(home(robot)));
   found_.pose = modes_->poses[chosen];
   found_.report.residual = modes_->residual[chosen];
@@ -218,26 +222,24 @@ void KinematicQuestion::solve_inverse() {
 }
 
 void KinematicQuestion::solve() {
-  if (ask == Ask::inverse)
-    solve_inverse();
-  else if (ask != Ask::forward)
-    found_ = solve_configuration(*this, given);
-  else if (wants_all)
-    find_modes();
-  else
+  if (ask == Ask::forward && wants_all) return find_modes();
+  if (ask == Ask::forward)
     solve_forward();
+  else if (ask == Ask::inverse)
+    solve_inverse();
+  else
+    found_ = solve_configuration(*this, given);
+  has_pose_ = found_.report.ok();
 }
 
 void KinematicQuestion::tell() {
   const Report& found = found_.report;
   report(found);
-  const bool has_pose = modes_ ? !modes_->poses.empty() : found.ok();
-  const bool tells_failure = ask == Ask::forward && !modes_ && found.status != Status::left_domain;
-  if (!has_pose && !tells_failure) return;
+  if (!has_pose_ && !is_searched_) return;
   if (ask == Ask::inverse) answer["inputs"] = inputs_;
-  if (has_pose) put_wanted(*this, wanted, given, found_);
+  if (has_pose_) put_wanted(*this, wanted, given, found_);
   answer["residual"] = found.residual;
-  if (ask != Ask::forward || modes_) return;
+  if (!is_searched_) return;
   answer["iterations"] = found.iterations;
   if (!trace_.empty()) answer["trace"] = trace_value(trace_, found.iterations);
 }
@@ -245,7 +247,7 @@ void KinematicQuestion::tell() {
 void KinematicQuestion::tell_all() {
   if (modes_)
     tell_modes();
-  else if (found_.report.ok())
+  else if (has_pose_)
     answer["solutions"] = all_working_modes(*this, found_.pose, given.branch);
 }
 

@@ -39,6 +39,8 @@ struct KinematicQuestion : Context {
   void tell_modes();
 
   Solved found_ = {};
+  bool has_pose_ = false;                    ///< a pose stands for the answer
+  bool is_searched_ = false;                 ///< by iterations, of `forward`
   std::span<const double> inputs_ = {};      ///< of `inverse`; view into the workspace
   std::optional<AssemblyModes> modes_ = {};  ///< of `forward`, where all are wanted
   std::vector<TraceStep> trace_ = {};

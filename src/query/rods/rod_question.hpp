@@ -20,7 +20,6 @@ struct RodQuestion : Context {
   void solve();
   void tell();
   void tell_all();
-  std::optional<Until<Spatial>> read_until() { return sinew::read_until<Spatial>(*this); }
 
  private:
   void read_forward();

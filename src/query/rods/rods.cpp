@@ -402,13 +402,6 @@ void RodQuestion::read() {
       at = read_configuration_of_rods(*this);
   }
   wanted = read_rod_wants(*this);
-  if (ask == Ask::forward)
-    read_until_or_all(*this);
-  else if (ask == Ask::inverse)
-    wants_all = read_all(*this);
-  if (wants_all && ask == Ask::inverse && input_count(robot) != pose_inputs)
-    query.required("all").fail("not_available",
-                               "of several solutions only the one nearest home is found; leave it out");
 }
 
 void RodQuestion::read_forward() {
@@ -417,6 +410,8 @@ void RodQuestion::read_forward() {
     trace->fail("not_available", "the iterates of rods are not recorded; leave it out");
   at.options = read_equilibrium_options(*this);
   at.options.start = read_spatial_start(*this);
+  until = read_until<Spatial>(*this);
+  wants_all = read_all(*this, until.has_value());
 }
 
 void RodQuestion::read_inverse() {
@@ -430,6 +425,10 @@ void RodQuestion::read_inverse() {
   }
   at.options = read_equilibrium_options(*this);
   start_ = read_start_of_inverse(*this);
+  const auto all = query.optional("all");
+  wants_all = all && all->boolean();
+  if (wants_all && input_count(robot) != pose_inputs)
+    all->fail("not_available", "of several solutions only the one nearest home is found; leave it out");
 }
 
 void RodQuestion::solve() {

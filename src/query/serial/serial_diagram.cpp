@@ -219,11 +219,11 @@ void SectionQuestion::tell() {
   if (measured) {
     Asked of_encoders(*this, m);
     Value state = Value::map();
-    const SectionDiagram read = diagram_of(*measured, of_encoders);
-    if (read.report.status == Status::left_domain)
-      state = {{"status", "left_domain"}, {"message", std::string(read.report.message.view())}};
+    const SectionDiagram of_measured = diagram_of(*measured, of_encoders);
+    if (of_measured.report.status == Status::left_domain)
+      state = {{"status", "left_domain"}, {"message", std::string(of_measured.report.message.view())}};
     else
-      put_state(state, of_encoders.question, read);
+      put_state(state, of_encoders.question, of_measured);
     answer["measured"] = std::move(state);
   }
 }

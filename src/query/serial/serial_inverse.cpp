@@ -52,7 +52,7 @@ struct SerialInverseQuestion : SerialContext {
 
  private:
   void solve_all();
-  void tell_all();
+  void tell_solutions();
 
   kernel::Model model_ = kernel::Model::exact;
   TipTarget target_ = {Vec3<double>::Zero()};
@@ -123,10 +123,10 @@ void SerialInverseQuestion::tell() {
     if (!arcs_) answer["iterations"] = found_.iterations;
     put_serial_wants(*this, bends_, model_, wanted_);
   }
-  if (arcs_ && found_.status != Status::left_domain) tell_all();
+  if (arcs_ && found_.status != Status::left_domain) tell_solutions();
 }
 
-void SerialInverseQuestion::tell_all() {
+void SerialInverseQuestion::tell_solutions() {
   Value solutions = Value::list();
   for (const std::size_t k : within_) {
     const std::span<const Bend> bends = solutions_.solutions[k];
