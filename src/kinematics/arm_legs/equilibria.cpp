@@ -47,7 +47,7 @@ LegsFound refine(const ArmLegs& robot, const LegsProblem& problem, const ArmOpti
   state.resolution = resolution;
   state.reached = found.status == Status::converged ? 1 : 0;
   if (found.status == Status::converged) {
-    if (!group.mounts_hold()) {
+    if (!group.clamps_are_aligned()) {
       state.report.status = Status::stalled;
     } else if (state.stable = holds(group); !state.stable) {
       state.report.status = Status::unstable;

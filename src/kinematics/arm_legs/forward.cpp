@@ -72,7 +72,7 @@ LegsFound iterate_legs(ArmGroup& group, bool is_held, const ArmOptions& options,
       found.status = Status::stalled;
       return found;
     }
-    if (!group.factor_limbs() || !(is_held ? group.plan_held() : group.plan())) {
+    if (!group.factor_limbs() || !(is_held ? group.plan_at_prescribed_pose() : group.plan())) {
       found.status = Status::singular;
       return found;
     }
@@ -107,8 +107,9 @@ LegsFound grow(ArmGroup& group, const Put& put, bool is_held, const ArmOptions& 
       all.status = found.status;
       return all;
     }
-    const bool is_found = found.status == Status::converged && group.mounts_hold();
-    if (is_found && group.factor_limbs() && (is_held ? group.unstable_held() : group.unstable()) == 0) {
+    const bool is_found = found.status == Status::converged && group.clamps_are_aligned();
+    if (is_found && group.factor_limbs() &&
+        (is_held ? group.unstable_at_prescribed_pose() : group.unstable()) == 0) {
       reached = share;
       if (share == 1) return all;
       group.save(last);
@@ -225,7 +226,7 @@ LegsFound begin_unloaded(ArmGroup& group, const LegsProblem& problem, const ArmO
 
 ArmGroup::Wrench missing_of(ArmGroup& group) {
   group.evaluate();
-  return group.wrench_missing();
+  return group.constraint_wrench();
 }
 
 }  // namespace
@@ -259,18 +260,6 @@ namespace {
 bool is_for(const ArmOptions& options, const ArmLegsWorkspace::Impl& impl) {
   return impl.model == options.model && impl.order == options.order && impl.elements == options.elements &&
          impl.levels.size() == bases_of(options).size();
-}
-
-/// Whether loads may act at all of these places.
-bool has_all(const LegsBreaks& breaks, const LegsBreaks& wanted) {
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    if (!std::ranges::includes(breaks[k], wanted[k])) return false;
-  return true;
-}
-LegsBreaks together(const LegsBreaks& a, const LegsBreaks& b) {
-  LegsBreaks all(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) std::ranges::set_union(a[k], b[k], std::back_inserter(all[k]));
-  return all;
 }
 
 }  // namespace
@@ -395,7 +384,7 @@ LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, const ArmOption
   LegsProblem on_the_way = problem;
   std::vector<double> first;
   for (std::size_t i = 0; i < problem.commands.size(); ++i)
-    first.push_back(group.held_as(static_cast<int>(i), problem.commands[i].held));
+    first.push_back(group.value_of(static_cast<int>(i), problem.commands[i].held));
   const ArmGroup::Wrench wrench = group.wrench();
   const LegsLoads loads = group.loads();
   const ArmGroup::Frame from = group.platform();
@@ -505,7 +494,7 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
     if (group != &last) {
       std::vector<TendonCommand> commands = problem.commands;
       for (std::size_t i = 0; i < commands.size(); ++i)
-        commands[i].value = last.held_as(static_cast<int>(i), commands[i].held);
+        commands[i].value = last.value_of(static_cast<int>(i), commands[i].held);
       group->carry_over_from(last);
       group->set_problem(commands, last.wrench(), last.loads());
       group->set_share(1);
@@ -538,7 +527,7 @@ void solve_legs(const ArmLegs& robot, const LegsProblem& problem, const ArmOptio
     finer.set_share(1);
     LegsFound again = iterate_legs(finer, is_held, options, work.stop, found.iterations);
     if (again.status == Status::converged &&
-        (!finer.factor_limbs() || (is_held ? finer.unstable_held() : finer.unstable()) != 0))
+        (!finer.factor_limbs() || (is_held ? finer.unstable_at_prescribed_pose() : finer.unstable()) != 0))
       again.status = Status::unstable;
     again.iterations += found.iterations;
     if (again.status != Status::converged) {  // what the coarser one found is none of the finer

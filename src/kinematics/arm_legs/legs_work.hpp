@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "kinematics/arm_legs/arm_group.hpp"
+#include "kinematics/arm_legs/group/arm_group.hpp"
 #include "sinew/kinematics/arm_legs.hpp"
 
 namespace sinew::inline v1 {

@@ -28,7 +28,7 @@ class WayTo {
     const ArmGroup::Wrench wrench = group.wrench();
     std::copy(wrench.begin(), wrench.end(), wrench_.begin());
     for (std::size_t i = 0; i < step.commands.size(); ++i)
-      held_.push_back(group.held_as(static_cast<int>(i), step.commands[i].held));
+      held_.push_back(group.value_of(static_cast<int>(i), step.commands[i].held));
     if (step.pose) way_ = twist_between(platform_, *step.pose);
   }
   ArmLegsLoad load(double share) const {
