@@ -3,20 +3,13 @@
 #include <random>
 
 #include "kinematics/arms/arm_work.hpp"
+#include "kinematics/arms/whole_potential.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
 constexpr int parts = 16;       ///< of the shape that is told of each
 constexpr double still = 1e-6;  ///< a margin below which an equilibrium may move freely [1]
-
-/// What is least at an equilibrium that holds: with the motors that hold tensions [J].
-double whole_potential(const ArmState& one, std::span<const TendonCommand> commands) {
-  double sum = one.energy;
-  for (std::size_t i = 0; i < std::min(commands.size(), one.changes.size()); ++i)
-    if (commands[i].held == TendonHeld::tension) sum += one.tensions[i] * one.changes[i];
-  return sum;
-}
 
 }  // namespace
 

@@ -93,7 +93,7 @@ ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const ArmLoad& l
   TensionSearch search{.tendons = arm.tendons.size(),
                        .length = length,
                        .usual = usual,
-                       .most = options.most_tension > 0 ? options.most_tension : 1e3 * usual,
+                       .most = most_tension(options, usual),
                        .asked = options.most_tension,
                        .precision = options.precision,
                        .starts = options.starts,

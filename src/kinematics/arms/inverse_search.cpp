@@ -186,6 +186,11 @@ double usual_tension(const Arm& arm) {
   return least;
 }
 
+double most_tension(const ArmInverseOptions& options, double usual) {
+  constexpr double unbounded = 1e3;  // usual tensions: an arm that is pulled so hard is bent to a point
+  return options.most_tension > 0 ? options.most_tension : unbounded * usual;
+}
+
 std::string_view target_misfit(const ArmTarget& target) {
   if (!target.position && !target.direction && !target.quaternion) return "the target is empty";
   if (target.direction && target.quaternion) return "the target has a direction and a quaternion; keep one";

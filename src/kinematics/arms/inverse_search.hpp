@@ -78,6 +78,8 @@ double off_target(const ArmTarget& target, const SE3<double>& tip, double length
 std::string_view target_misfit(const ArmTarget& target);
 /// The tension of a tendon that bends its section by about one radian: the least of all [N].
 double usual_tension(const Arm& arm);
+/// The bound that the question sets, or one beyond what any arm is pulled with [N].
+double most_tension(const ArmInverseOptions& options, double usual);
 std::vector<TendonCommand> as_commands(const std::vector<double>& tensions);
 
 }  // namespace sinew::inline v1
