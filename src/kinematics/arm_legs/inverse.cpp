@@ -9,9 +9,9 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// Equilibria and their Newton's steps of a search, of all its beginnings together [1]: one search has steps
-/// of each tendon's tension to try at some tens of places, and what takes more than this is not found in a
-/// bearable time.
+/// Equilibria and their Newton's steps of a search, of all its beginnings together [1]: a bound of time, less
+/// than an arm's, since each step is of several legs; targets that are found mostly take ten to twenty
+/// equilibria.
 constexpr int most_work_of_inverse = 3000;
 
 class PulledLegs final : public PulledBody {

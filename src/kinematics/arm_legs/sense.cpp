@@ -12,8 +12,7 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// Equilibria and their Newton's steps of one search [1]: Gauss's and Newton's method has its answer after
-/// some tens of equilibria, and what takes more than this does not settle in a bearable time.
+/// Equilibria and their Newton's steps of one search [1]: a bound of time, the same as of tensions.
 constexpr int most_work_of_sensing = 3000;
 /// Times that a search is made again by finer polynomials [1]: there are at most five of them, and the first
 /// is not finer.

@@ -40,7 +40,7 @@ struct TensionSearch {
   double precision = 0;
   int starts = 0;
   bool from_last = false;
-  int most_work = 1 << 30;  ///< equilibria and their iterations, of all starts
+  int most_work = 1 << 30;  ///< equilibria and their iterations, of all starts: any number, if not told
 };
 struct FoundTensions {
   Report report;  ///< of the equilibrium; its residual is what the tip is off, 1e300 where none was found
