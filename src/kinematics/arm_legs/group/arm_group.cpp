@@ -11,6 +11,15 @@
 #include "strain/sweep.hpp"
 
 namespace sinew::inline v1 {
+namespace {
+
+/// The least radius of a platform over a leg [1]: by it moments count, of a platform with all tips in its
+/// reference point, too.
+constexpr double least_platform_radius = 0.01;
+/// A tip that is nearer to the platform than this share of the bar between [1] gives it no direction.
+constexpr double no_way = 1e-9;
+
+}  // namespace
 
 ArmGroup::ArmGroup(const ArmLegs& robot, const ArmBasis& basis, const LegsBreaks& breaks)
     : robot_(&robot),
@@ -48,7 +57,7 @@ ArmGroup::ArmGroup(const ArmLegs& robot, const ArmBasis& basis, const LegsBreaks
     measure_closure(leg);
     leg.gap = leg.off;
     radius_ = std::max(radius_, own.platform_point.norm());
-    radius_ = std::max(radius_, 0.01 * own.arm.length());
+    radius_ = std::max(radius_, least_platform_radius * own.arm.length());
   }
   set_share(0);
 }
@@ -72,7 +81,7 @@ void ArmGroup::stand(Leg& leg, const ArmBasis& basis, const std::vector<double>&
 double ArmGroup::way_to_platform(const Leg& leg) const {
   const strain::RodFrame& tip = rod(leg).work().frames.back();
   const Vec3<double> way = turn_of(tip).transpose() * (mount_of(leg).p - place_of(tip));
-  return way.norm() > 1e-9 * leg.own->strut ? std::atan2(way.x(), way.z()) : 0;
+  return way.norm() > no_way * leg.own->strut ? std::atan2(way.x(), way.z()) : 0;
 }
 
 void ArmGroup::set_problem(std::span<const TendonCommand> commands, const Wrench& wrench,

@@ -12,6 +12,10 @@
 namespace sinew::inline v1 {
 namespace {
 
+/// Parts by whose curvatures a shape is taken over where polynomials do not [1]: as many as the finest
+/// elements of a section.
+constexpr int parts_taken_over = 64;
+
 /// Shapes that polynomials do not tell one another: joints in other places.
 bool has_other_joints(const strain::RodModel& a, const strain::RodModel& b) {
   return a.pieces.size() != b.pieces.size() &&
@@ -80,7 +84,8 @@ void ArmGroup::carry_over_from(const ArmGroup& other) {
     const Leg& from = other.legs_[k];
     Leg& leg = legs_[k];
     if (has_other_joints(rod(from).model(), rod(leg).model()))
-      take_curvatures(arm_curvatures(from.own->arm, 64, from.work), rod(leg).model(), rod(leg).work().y);
+      take_curvatures(arm_curvatures(from.own->arm, parts_taken_over, from.work), rod(leg).model(),
+                      rod(leg).work().y);
     else
       carry_over(rod(from).model(), rod(from).work(), rod(leg).model(), rod(leg).work().y);
     for (std::size_t i = 0; i < leg.pivots().size(); ++i)
