@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinematics/arm_legs/arm_group.hpp"
+#include "kinematics/arm_legs/group/arm_group.hpp"
 #include "kinematics/load_problem.hpp"
 #include "tripods.hpp"
 

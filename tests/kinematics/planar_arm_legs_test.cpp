@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "kinematics/arm_legs/arm_group.hpp"
+#include "kinematics/arm_legs/group/arm_group.hpp"
 #include "sinew/kinematics/arm_legs.hpp"
 
 namespace sinew::test::planar_arm_legs_test {

@@ -1,89 +1,51 @@
-#include <fmt/format.h>
-
+/// All equilibria that are found, stable and unstable, from beginnings that are the same for every question.
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "base/at.hpp"
+#include "kinematics/arm_legs/forward_from.hpp"
 #include "kinematics/arm_legs/legs_work.hpp"
+#include "kinematics/arm_legs/search/continuation.hpp"
+#include "kinematics/arm_legs/search/resolution.hpp"
 #include "kinematics/arms/inverse_search.hpp"
 #include "kinematics/arms/sense_search.hpp"
-#include "robot/pose.hpp"
+#include "kinematics/arms/whole_potential.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-constexpr int parts = 16;  ///< of the shape that is told of each leg
+/// Parts of each leg whose mean curvatures tell its shape [1]: a solution is found again from them, since
+/// Newton's method has the forces in its first step.
+constexpr int parts = 16;
 
-bool holds(ArmGroup& group) { return group.factor_limbs() && group.unstable() == 0; }
+/// Equilibria are one where platforms differ by less than these, over the longest leg and [rad], and
+/// curvatures by less than this, over its inverse: far above what two searches leave, far below what tells
+/// equilibria apart.
+constexpr double same_place = 1e-4, same_angle = 1e-3, same_curvature = 1e-2;
 
-/// From the coarsest group's equilibrium to finer ones, by Newton's method alone.
-LegsFound refine(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
-                 ArmLegsWorkspace& work, LegsFound found) {
-  ArmLegsWorkspace::Impl& impl = work.impl();
-  const auto bases = bases_of(options);
-  const double wanted = options.accuracy * legs_size(robot);
-  impl.level = 0;
-  double resolution = 0;
-  for (std::size_t next = 1; found.status == Status::converged && next < bases.size(); ++next) {
-    ArmGroup& coarse = *impl.levels[next - 1];
-    impl.levels[next] = std::make_unique<ArmGroup>(robot, bases[next], impl.breaks);
-    ArmGroup& fine = *impl.levels[next];
-    fine.set_problem(problem.commands, problem.wrench, problem.loads);
-    fine.carry_over_from(coarse);
-    fine.set_share(1);
-    LegsFound again = iterate_legs(fine, false, options, work.stop, 0);
-    again.iterations += found.iterations;
-    found = again;
-    impl.level = static_cast<int>(next);
-    const double by = static_cast<double>(bases[next].elements) / bases[next - 1].elements;
-    resolution = moved_by(coarse, fine, false) / (by * by * by * by - 1);
-    if (resolution <= wanted) break;
-  }
-  ArmLegsState& state = impl.state;
-  state = {};
-  ArmGroup& group = impl.group();
-  state.report = {found.status, found.iterations, found.residual, {}};
-  state.resolution = resolution;
-  state.reached = found.status == Status::converged ? 1 : 0;
-  if (found.status == Status::converged) {
-    if (!group.mounts_hold()) {
-      state.report.status = Status::stalled;
-    } else if (state.stable = holds(group); !state.stable) {
-      state.report.status = Status::unstable;
-      state.report.message = FixedText<240>(
-          group.has_potential()
-              ? "the equilibrium does not hold by itself"
-              : "whether the equilibrium holds is not known: some of the loads have no potential, and the "
-                "symmetric part of its stiffness is not positive definite");
-    }
-    if (resolution > 10 * wanted) {
-      state.report.status = Status::stalled;
-      state.report.message = FixedText<240>(fmt::format(
-          "the finest polynomials still move the platform by {:.1e} m: loads or tensions are too large",
-          resolution));
-    }
-  }
-  write_legs_state(robot, group, state);
-  return found;
-}
+/// Newton's steps from one beginning [1]: many of them lead nowhere, and none may cost as much as the
+/// question itself may.
+constexpr int most_steps_of_beginning = 400;
 
-/// What is least at an equilibrium that holds: with the motors that hold tensions [J].
-double whole_potential(const ArmLegsState& one, std::span<const TendonCommand> commands) {
-  double sum = one.energy;
-  for (std::size_t i = 0; i < commands.size(); ++i)
-    if (commands[i].held == TendonHeld::tension) sum += one.tensions[i] * one.changes[i];
-  return sum;
-}
+/// How far from home a platform begins, at most: place over the longest leg [1] and turn [rad], within what
+/// legs reach that bend; in the plane, where a turn is about one axis, nearly to the other side.
+constexpr double farthest_shift = 0.3, farthest_turn = 0.6, farthest_turn_in_plane = 3;
+/// Disturbances are such that legs bend much: forces and tensions up to the usual ones, moments up to this
+/// share of them over the longest leg, and changes of tendons up to this share of their distance from the
+/// backbone, which bends by as many radians [1].
+constexpr double largest_moment = 0.3, largest_change = 0.3;
 
 bool is_same(const ArmLegsEquilibrium& a, const ArmLegsEquilibrium& b, double length) {
   const SE3<double>&from = a.state.platform, &to = b.state.platform;
-  if ((from.p - to.p).norm() > 1e-4 * length || from.R.compose(to.R.inverse()).log().norm() > 1e-3)
+  if ((from.p - to.p).norm() > same_place * length ||
+      from.R.compose(to.R.inverse()).log().norm() > same_angle)
     return false;
   for (std::size_t k = 0; k < a.start.curvatures.size(); ++k)
     for (std::size_t j = 0; j < a.start.curvatures[k].size(); ++j)
       for (std::size_t i = 0; i < 3; ++i)
-        if (std::abs(a.start.curvatures[k][j][i] - b.start.curvatures[k][j][i]) > 1e-2 / length) return false;
+        if (std::abs(a.start.curvatures[k][j][i] - b.start.curvatures[k][j][i]) > same_curvature / length)
+          return false;
   return true;
 }
 
@@ -99,7 +61,8 @@ class Beginnings {
   /// The platform is elsewhere.
   void put(ArmGroup& group) {
     Vec<double, 6> twist = Vec<double, 6>::Zero();
-    const double shift = 0.3 * length_, turn = robot_.is_planar ? 3 : 0.6;
+    const double shift = farthest_shift * length_,
+                 turn = robot_.is_planar ? farthest_turn_in_plane : farthest_turn;
     for (const int i : {0, 1, 2, 3, 4, 5})
       if (!robot_.is_planar || i < 2 || i > 4) twist[i] = (i < 3 ? shift : turn) * any();
     group.begin_at(group.platform().displaced(twist));
@@ -110,7 +73,7 @@ class Beginnings {
     const double share = 0.5 * (1 + any());
     for (const int i : {0, 1, 2, 3, 4, 5})
       if (!robot_.is_planar || i < 2 || i > 4)
-        other.wrench[i] += share * force_ * (i < 3 ? 1 : 0.3 * length_) * any();
+        other.wrench[i] += share * force_ * (i < 3 ? 1 : largest_moment * length_) * any();
     for (std::size_t next = 0; const ArmLeg& leg : robot_.legs)
       for (const ArmTendon& tendon : leg.arm.tendons) {
         TendonCommand& command = other.commands[next++];
@@ -118,7 +81,7 @@ class Beginnings {
         if (command.held == TendonHeld::tension)
           command.value = std::max(0.0, command.value + share * usual_tension(leg.arm) * any());
         else
-          command.value += 0.3 * share * radius * any();
+          command.value += largest_change * share * radius * any();
       }
     return other;
   }
@@ -133,97 +96,83 @@ class Beginnings {
   std::uniform_real_distribution<double> between_{-1, 1};
 };
 
-}  // namespace
-
-const ArmLegsState& arm_legs_forward_from(const ArmLegs& robot, const ArmLegsStart& start,
-                                          std::span<const TendonCommand> commands, const ArmLegsLoad& load,
-                                          const ArmOptions& options, ArmLegsWorkspace& work) {
-  ArmLegsWorkspace::Impl& impl = work.impl();
-  Report misfit = legs_misfit(robot, commands, load, options, work);
-  const auto bad = [&](std::string_view words) {
-    if (misfit.ok()) misfit = {Status::bad_input, 0, 0, FixedText<240>(words)};
-  };
-  const auto is_shape = [](const std::vector<std::array<double, 3>>& leg) {
-    return !leg.empty() && std::ranges::all_of(leg, [](const std::array<double, 3>& part) {
-      return std::ranges::all_of(part, [](double x) { return std::isfinite(x); });
-    });
-  };
-  if (start.curvatures.size() != robot.legs.size() || !std::ranges::all_of(start.curvatures, is_shape))
-    bad("a shape to begin at has finite curvatures of at least one part of every leg");
-  if (!(start.platform.p.allFinite() && start.platform.R.matrix().allFinite()))
-    bad("the pose to begin at is not finite");
-  if (leaves_plane(robot, start.platform)) bad("the pose to begin at is out of the plane");
-  if (!misfit.ok()) {
-    impl.state = {};
-    impl.state.report = misfit;
-    return impl.state;
+/// Equilibria of one question, each once.
+class Equilibria {
+ public:
+  Equilibria(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
+             ArmLegsWorkspace& work)
+      : robot_(robot),
+        problem_(problem),
+        options_(options),
+        work_(work) {}
+  /// That of the workspace, if it is new.
+  void add() {
+    ArmLegsWorkspace::Impl& impl = work_.impl();
+    if (!impl.state.report.ok() && impl.state.report.status != Status::unstable) return;
+    ArmLegsEquilibrium one{impl.state, impl.group().start_here(parts)};
+    const double length = legs_size(robot_);
+    if (std::ranges::none_of(found,
+                             [&](const ArmLegsEquilibrium& other) { return is_same(one, other, length); }))
+      found.push_back(std::move(one));
   }
-  const LegsProblem problem(robot, commands, load);
-  prepare_levels(options, breaks_for(robot, problem.loads), work);
-  impl.levels[0] = std::make_unique<ArmGroup>(robot, bases_of(options).front(), impl.breaks);
-  ArmGroup& group = *impl.levels[0];
-  group.set_problem(problem.commands, problem.wrench, problem.loads);
-  group.take(start);
-  refine(robot, problem, options, work, iterate_legs(group, false, options, work.stop, 0));
-  if (Report& report = impl.state.report; !report.is_solved() && report.message.empty())
-    report.message = FixedText<240>("no equilibrium was found near the shape to begin at");
-  return impl.state;
-}
+  /// From a disturbed question to the question in two ways: at once by Newton's method, which finds unstable
+  /// equilibria, too, and evenly, which keeps to stable ones. @param moves_platform to elsewhere, at first
+  void search_from(Beginnings& beginnings, bool moves_platform) {
+    ArmLegsWorkspace::Impl& impl = work_.impl();
+    impl.levels[0] = std::make_unique<ArmGroup>(robot_, bases_of(options_).front(), impl.breaks);
+    ArmGroup& group = *impl.levels[0];
+    const LegsProblem disturbed = beginnings.disturbed();
+    group.set_problem(disturbed.commands, disturbed.wrench, disturbed.loads);
+    if (moves_platform) beginnings.put(group);
+    double reached = 0;
+    ArmOptions some = options_;
+    some.max_iterations = std::min(some.max_iterations, most_steps_of_beginning);
+    const LegsFound there = grow_legs(group, some, work_.stop, reached);
+    const LimbState state = group.state();
+    group.set_problem(problem_.commands, problem_.wrench, problem_.loads);
+    group.set_share(1);
+    refine_and_add(iterate_legs(group, false, some, work_.stop, 0));
+    if (there.status != Status::converged) return;
+    group.set_problem(disturbed.commands, disturbed.wrench, disturbed.loads);
+    group.restore(state);
+    group.evaluate();
+    refine_and_add(walk_legs(group, problem_, some, work_.stop, reached));
+  }
+
+  std::vector<ArmLegsEquilibrium> found;
+
+ private:
+  void refine_and_add(const LegsFound& coarse) {
+    if (coarse.status != Status::converged) return;
+    refine_by_newton(robot_, problem_, options_, work_, coarse);
+    add();
+  }
+
+  const ArmLegs& robot_;
+  const LegsProblem& problem_;
+  const ArmOptions& options_;
+  ArmLegsWorkspace& work_;
+};
+
+}  // namespace
 
 std::vector<ArmLegsEquilibrium> arm_legs_equilibria(const ArmLegs& robot,
                                                     std::span<const TendonCommand> commands,
                                                     const ArmLegsLoad& load, const ArmOptions& options,
                                                     int starts, ArmLegsWorkspace& work) {
-  ArmLegsWorkspace::Impl& impl = work.impl();
   ArmOptions each = options;
   each.from_last = false;
-  ArmLegsState first = arm_legs_forward(robot, commands, load, each, work);
-  std::vector<ArmLegsEquilibrium> found;
-  const auto add = [&] {
-    if (!impl.state.report.ok() && impl.state.report.status != Status::unstable) return;
-    ArmLegsEquilibrium one{impl.state, impl.group().start_here(parts)};
-    const double length = legs_size(robot);
-    if (std::ranges::none_of(found,
-                             [&](const ArmLegsEquilibrium& other) { return is_same(one, other, length); }))
-      found.push_back(std::move(one));
-  };
-  const bool is_refused =
-      first.report.status == Status::bad_input || first.report.status == Status::unsupported;
-  if (!is_refused) add();
+  const ArmLegsState first = arm_legs_forward(robot, commands, load, each, work);
+  if (first.report.status == Status::bad_input || first.report.status == Status::unsupported)
+    return {ArmLegsEquilibrium{first, {}}};
   const LegsProblem problem(robot, commands, load);
+  Equilibria equilibria(robot, problem, each, work);
+  equilibria.add();
   Beginnings beginnings(robot, problem);
-  for (int k = 1; k < starts && !is_refused && !work.stop.stop_requested(); ++k) {
-    impl.levels[0] = std::make_unique<ArmGroup>(robot, bases_of(each).front(), impl.breaks);
-    ArmGroup& group = *impl.levels[0];
-    const LegsProblem disturbed = beginnings.disturbed();
-    group.set_problem(disturbed.commands, disturbed.wrench, disturbed.loads);
-    if (k % 2 == 0) beginnings.put(group);
-    double reached = 0;
-    ArmOptions some = each;
-    some.max_iterations = std::min(each.max_iterations, 400);
-    const LegsFound there = grow_legs(group, some, work.stop, reached);
-    // At once to the question, which may be where it does not hold; and evenly, where it does.
-    const LimbState state = group.state();
-    group.set_problem(problem.commands, problem.wrench, problem.loads);
-    group.set_share(1);
-    if (const LegsFound at_once = iterate_legs(group, false, some, work.stop, 0);
-        at_once.status == Status::converged) {
-      refine(robot, problem, each, work, at_once);
-      add();
-    }
-    if (there.status != Status::converged) continue;
-    group.set_problem(disturbed.commands, disturbed.wrench, disturbed.loads);
-    group.restore(state);
-    group.evaluate();
-    const LegsFound evenly = walk_legs(group, problem, some, work.stop, reached);
-    if (evenly.status != Status::converged) continue;
-    refine(robot, problem, each, work, evenly);
-    add();
-  }
-  if (found.empty()) {
-    found.push_back({first, {}});
-    return found;
-  }
+  for (int k = 1; k < starts && !work.stop.stop_requested(); ++k)
+    equilibria.search_from(beginnings, k % 2 == 0);
+  auto& found = equilibria.found;
+  if (found.empty()) return {ArmLegsEquilibrium{first, {}}};
   std::ranges::stable_sort(
       found, {}, [&](const ArmLegsEquilibrium& one) { return whole_potential(one.state, commands); });
   arm_legs_forward_from(robot, found.front().start, commands, load, each, work);

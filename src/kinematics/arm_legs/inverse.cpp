@@ -1,10 +1,18 @@
+/// Inverse statics: tensions that take the platform to a target.
 #include <algorithm>
 
 #include "kinematics/arm_legs/legs_work.hpp"
+#include "kinematics/arm_legs/question_check.hpp"
+#include "kinematics/arm_legs/search/legs_walk.hpp"
 #include "kinematics/arms/inverse_search.hpp"
 
 namespace sinew::inline v1 {
 namespace {
+
+/// Equilibria and their Newton's steps of a search, of all its beginnings together [1]: a bound of time, less
+/// than an arm's, since each step is of several legs; targets that are found mostly take ten to twenty
+/// equilibria.
+constexpr int most_work_of_inverse = 3000;
 
 class PulledLegs final : public PulledBody {
  public:
@@ -72,19 +80,10 @@ Arm bending_as_it_may(const ArmLegs& robot, const ArmLeg& leg) {
   return arm;
 }
 
-}  // namespace
-
-ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target, const ArmLegsLoad& load,
-                                const ArmInverseOptions& options, ArmLegsWorkspace& work) {
-  ArmLegsInverse best;
-  const ArmLegsState& state = work.impl().state;
-  const auto answer = [&](const Report& report) {
-    best.report = report;
-    best.state = state;
-    return best;
-  };
+Report inverse_misfit(const ArmLegs& robot, const ArmTarget& target, const ArmLegsLoad& load,
+                      const ArmOptions& options, const ArmLegsWorkspace& work) {
   const std::vector<TendonCommand> loose(robot.tendons());
-  Report misfit = legs_misfit(robot, loose, load, options.arm, work);
+  Report misfit = legs_misfit(robot, loose, load, options, work);
   if (const auto text = target_misfit(target); misfit.ok() && !text.empty())
     misfit = {Status::bad_input, 0, 0, FixedText<240>(text)};
   if (misfit.ok() && robot.is_planar) {
@@ -97,26 +96,45 @@ ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target, c
   }
   if (misfit.ok() && loose.empty())
     misfit = {Status::bad_input, 0, 0, FixedText<240>("the legs have no tendons that could move it")};
-  if (!misfit.ok()) {
+  return misfit;
+}
+
+/// The least of the legs' [N].
+double usual_tension_of(const ArmLegs& robot) {
+  double usual = 1e300;
+  for (const ArmLeg& leg : robot.legs)
+    if (!leg.arm.tendons.empty()) usual = std::min(usual, usual_tension(bending_as_it_may(robot, leg)));
+  return usual;
+}
+
+}  // namespace
+
+ArmLegsInverse arm_legs_inverse(const ArmLegs& robot, const ArmTarget& target, const ArmLegsLoad& load,
+                                const ArmInverseOptions& options, ArmLegsWorkspace& work) {
+  ArmLegsInverse best;
+  const ArmLegsState& state = work.impl().state;
+  const auto answer = [&](const Report& report) {
+    best.report = report;
+    best.state = state;
+    return best;
+  };
+  if (const Report misfit = inverse_misfit(robot, target, load, options.arm, work); !misfit.ok()) {
     answer(misfit);
     best.state.report = misfit;
     return best;
   }
-  const double length = legs_size(robot);
-  double usual = 1e300;
-  for (const ArmLeg& leg : robot.legs)
-    if (!leg.arm.tendons.empty()) usual = std::min(usual, usual_tension(bending_as_it_may(robot, leg)));
-  TensionSearch search{.tendons = loose.size(),
+  const double usual = usual_tension_of(robot);
+  TensionSearch search{.tendons = robot.tendons(),
                        .what = "platform",
                        .whose = "the longest leg's",
-                       .length = length,
+                       .length = legs_size(robot),
                        .usual = usual,
-                       .most = options.most_tension > 0 ? options.most_tension : 1e3 * usual,
+                       .most = most_tension(options, usual),
                        .asked = options.most_tension,
                        .precision = options.precision,
                        .starts = options.starts,
                        .from_last = options.arm.from_last,
-                       .most_work = 3000};
+                       .most_work = most_work_of_inverse};
   return answer(RefinedLegs(robot, load, options.arm, work).run(target, search));
 }
 

@@ -1,13 +1,22 @@
+/// The wrench on the platform by what was measured of tendons and pose.
 #include <algorithm>
 #include <cmath>
 
 #include "kinematics/arm_legs/legs_work.hpp"
+#include "kinematics/arm_legs/question_check.hpp"
+#include "kinematics/arm_legs/search/legs_walk.hpp"
 #include "kinematics/arms/sense_search.hpp"
 #include "math/plane_axes.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
 namespace {
+
+/// Equilibria and their Newton's steps of one search [1]: a bound of time, the same as of tensions.
+constexpr int most_work_of_sensing = 3000;
+/// Times that a search is made again by finer polynomials [1]: there are at most five of them, and the first
+/// is not finer.
+constexpr int most_refinements = 3;
 
 class MeasuredLegs final : public LoadedBody {
  public:
@@ -51,21 +60,23 @@ class MeasuredLegs final : public LoadedBody {
   bool has_begun_ = false;
 };
 
-}  // namespace
+/// Of the wrench, or of the force alone.
+std::size_t unknowns_of(const ArmLegs& robot, bool force_alone) {
+  if (robot.is_planar) return force_alone ? 2 : 3;
+  return force_alone ? 3 : 6;
+}
 
-ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& measured,
-                             const ArmLegsLoad& load, bool force_alone, const ArmOptions& options,
-                             ArmLegsWorkspace& work) {
-  ArmLegsSensed sensed;
+Report sense_misfit(const ArmLegs& robot, const ArmLegsMeasurement& measured, const ArmLegsLoad& load,
+                    bool force_alone, const ArmOptions& options, const ArmLegsWorkspace& work) {
+  Report misfit = legs_misfit(robot, measured.held, load, options, work);
   const bool is_planar = robot.is_planar;
   const std::size_t forces = is_planar ? 2 : 3, turns = is_planar ? 1 : 3,
-                    unknowns = force_alone ? forces : forces + turns,
                     others = (measured.position ? forces : 0U) + (measured.quaternion ? turns : 0U);
-  Report misfit = legs_misfit(robot, measured.held, load, options, work);
   const auto bad = [&](std::string_view words) {
     if (misfit.ok() && !words.empty()) misfit = {Status::bad_input, 0, 0, FixedText<240>(words)};
   };
-  bad(measurement_misfit(robot.tendons(), measured.held, measured.answers, others, unknowns,
+  bad(measurement_misfit(robot.tendons(), measured.held, measured.answers, others,
+                         unknowns_of(robot, force_alone),
                          {measured.tension_deviation, measured.change_deviation, measured.position_deviation,
                           measured.angle_deviation}));
   const auto finite = [](double x) { return std::isfinite(x); };
@@ -81,30 +92,29 @@ ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& mea
   if (misfit.ok() && measured.quaternion &&
       leaves_plane(robot, SE3<double>::from({{0, 0, 0}, *measured.quaternion})))
     bad("the quaternion turns out of the plane");
-  if (!misfit.ok()) {
-    sensed.report = misfit;
-    sensed.state = work.impl().state;
-    sensed.state.report = misfit;
-    return sensed;
-  }
+  return misfit;
+}
+
+/// At the polynomials that the beginning needs; again where the end needs finer ones.
+FoundWrench search_refined(const ArmLegs& robot, const ArmLegsMeasurement& measured, const ArmLegsLoad& load,
+                           bool force_alone, const ArmOptions& options, ArmLegsWorkspace& work) {
   double usual = 0;
   for (const ArmLeg& leg : robot.legs) usual += usual_force(leg.arm);
   WrenchSearch search{
       .first = load.wrench,
-      .unknowns = unknowns,
-      .components = is_planar ? std::array<std::size_t, 6>{plane_axes[0], plane_axes[1], plane_axes[2]}
-                              : std::array<std::size_t, 6>{0, 1, 2, 3, 4, 5},
+      .unknowns = unknowns_of(robot, force_alone),
+      .components = robot.is_planar ? std::array<std::size_t, 6>{plane_axes[0], plane_axes[1], plane_axes[2]}
+                                    : std::array<std::size_t, 6>{0, 1, 2, 3, 4, 5},
       .length = legs_size(robot),
       .usual = usual,
       .from_last = options.from_last,
-      .most_work = 3000};
+      .most_work = most_work_of_sensing};
   ArmOptions each = options;
   FoundWrench found;
-  // At the polynomials that the beginning needs; again where the end needs finer ones.
   for (int round = 0;; ++round) {
     MeasuredLegs body(robot, measured, load, each, work);
     found = search_wrench(search, body);
-    if (!found.report.ok() || round == 3) break;
+    if (!found.report.ok() || round == most_refinements) break;
     const int level = work.impl().level;
     ArmLegsLoad all = load;
     all.wrench = found.wrench;
@@ -116,6 +126,22 @@ ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& mea
     search.first = found.wrench;
     search.from_last = true;
   }
+  return found;
+}
+
+}  // namespace
+
+ArmLegsSensed arm_legs_sense(const ArmLegs& robot, const ArmLegsMeasurement& measured,
+                             const ArmLegsLoad& load, bool force_alone, const ArmOptions& options,
+                             ArmLegsWorkspace& work) {
+  ArmLegsSensed sensed;
+  if (const Report misfit = sense_misfit(robot, measured, load, force_alone, options, work); !misfit.ok()) {
+    sensed.report = misfit;
+    sensed.state = work.impl().state;
+    sensed.state.report = misfit;
+    return sensed;
+  }
+  const FoundWrench found = search_refined(robot, measured, load, force_alone, options, work);
   sensed.report = found.report;
   for (std::size_t k = 0; k < 6; ++k) sensed.wrench[k] = found.wrench[k] - load.wrench[k];
   sensed.covariance = found.covariance;

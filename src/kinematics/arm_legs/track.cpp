@@ -1,15 +1,19 @@
+/// Equilibria along a path of commands, loads or poses.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "kinematics/arm_legs/legs_work.hpp"
+#include "kinematics/arm_legs/question_check.hpp"
+#include "kinematics/arm_legs/search/continuation.hpp"
+#include "kinematics/arm_legs/search/search.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-/// Of a tendon that does not pull, held as the step holds it.
+/// Commands of tendons that do not pull, of the quantities that the step prescribes.
 std::vector<TendonCommand> unpulled(const ArmLegs& robot, const ArmLegsStep& step) {
   std::vector<TendonCommand> commands(robot.tendons());
   if (!step.pose)
@@ -28,7 +32,7 @@ class WayTo {
     const ArmGroup::Wrench wrench = group.wrench();
     std::copy(wrench.begin(), wrench.end(), wrench_.begin());
     for (std::size_t i = 0; i < step.commands.size(); ++i)
-      held_.push_back(group.held_as(static_cast<int>(i), step.commands[i].held));
+      values_.push_back(group.value_of(static_cast<int>(i), step.commands[i].held));
     if (step.pose) way_ = twist_between(platform_, *step.pose);
   }
   ArmLegsLoad load(double share) const {
@@ -46,13 +50,13 @@ class WayTo {
   std::vector<TendonCommand> commands(double share) const {
     std::vector<TendonCommand> commands = step_.commands;
     for (std::size_t i = 0; i < commands.size(); ++i)
-      commands[i].value = std::lerp(held_[i], commands[i].value, share);
+      commands[i].value = std::lerp(values_[i], commands[i].value, share);
     return commands;
   }
   ArmTarget target(double share) const {
-    const Vec3<double> p = platform_.p + share * way_.head<3>();
-    const SE3<double> pose{p, SO3<double>::exp(Vec3<double>(share * way_.tail<3>())).compose(platform_.R)};
-    return {.position = std::array<double, 3>{p[0], p[1], p[2]}, .quaternion = spatial_pose(pose).quaternion};
+    const SE3<double> pose = displaced_by_share(platform_, way_, share);
+    return {.position = std::array<double, 3>{pose.p[0], pose.p[1], pose.p[2]},
+            .quaternion = spatial_pose(pose).quaternion};
   }
 
  private:
@@ -61,9 +65,28 @@ class WayTo {
   LegsLoads loads_;
   SE3<double> platform_;
   std::array<double, 6> wrench_{};
-  std::vector<double> held_;
+  std::vector<double> values_;  ///< of what the step prescribes of each tendon, where the way begins
   Vec<double, 6> way_ = Vec<double, 6>::Zero();
 };
+
+/// Of the first step that does not fit.
+Report steps_misfit(const ArmLegs& robot, std::span<const ArmLegsStep> steps, const ArmOptions& options,
+                    const ArmLegsWorkspace& work) {
+  const std::vector<TendonCommand> loose(robot.tendons());
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const ArmLegsStep& step = steps[k];
+    Report misfit = legs_misfit(robot, step.pose ? loose : step.commands, step.load, options, work);
+    const auto bad = [&](std::string_view words) {
+      if (misfit.ok() && !words.empty()) misfit = {Status::bad_input, 0, 0, FixedText<240>(words)};
+    };
+    if (step.divisions < 1) bad("its way has less than one division");
+    if (step.pose) bad(pose_misfit(robot, *step.pose, "its pose"));
+    if (misfit.ok()) continue;
+    misfit.message = FixedText<240>(fmt::format("step {}: {}", k + 1, misfit.message.view()));
+    return misfit;
+  }
+  return {Status::converged, 0, 0, {}};
+}
 
 }  // namespace
 
@@ -76,18 +99,7 @@ std::vector<ArmLegsState> arm_legs_track(const ArmLegs& robot, std::span<const A
     points.back().report = report;
     return points;
   };
-  const std::vector<TendonCommand> loose(robot.tendons());
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    const ArmLegsStep& step = steps[k];
-    Report misfit = legs_misfit(robot, step.pose ? loose : step.commands, step.load, options.arm, work);
-    if (misfit.ok() && step.divisions < 1)
-      misfit = {Status::bad_input, 0, 0, FixedText<240>("its way has less than one division")};
-    if (misfit.ok() && step.pose && !(step.pose->p.allFinite() && step.pose->R.matrix().allFinite()))
-      misfit = {Status::bad_input, 0, 0, FixedText<240>("its pose is not finite")};
-    if (misfit.ok() && step.pose && leaves_plane(robot, *step.pose))
-      misfit = {Status::bad_input, 0, 0, FixedText<240>("its pose is out of the plane")};
-    if (misfit.ok()) continue;
-    misfit.message = FixedText<240>(fmt::format("step {}: {}", k + 1, misfit.message.view()));
+  if (const Report misfit = steps_misfit(robot, steps, options.arm, work); !misfit.ok()) {
     impl.state = {};
     return end(misfit);
   }

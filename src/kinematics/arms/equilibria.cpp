@@ -3,20 +3,21 @@
 #include <random>
 
 #include "kinematics/arms/arm_work.hpp"
+#include "kinematics/arms/whole_potential.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
 constexpr int parts = 16;       ///< of the shape that is told of each
 constexpr double still = 1e-6;  ///< a margin below which an equilibrium may move freely [1]
-
-/// What is least at an equilibrium that holds: with the motors that hold tensions [J].
-double whole_potential(const ArmState& one, std::span<const TendonCommand> commands) {
-  double sum = one.energy;
-  for (std::size_t i = 0; i < std::min(commands.size(), one.changes.size()); ++i)
-    if (commands[i].held == TendonHeld::tension) sum += one.tensions[i] * one.changes[i];
-  return sum;
-}
+/// Equilibria are one where tips differ by less than these, over the arm's length and [rad]: far above what
+/// two searches leave, far below what tells equilibria apart.
+constexpr double same_tip = 1e-5, same_tip_angle = 1e-4;
+/// Potentials of one continuum differ by less than this, and so many times the accuracy, over EI/L or
+/// themselves [1]: each has an error of its own.
+constexpr double same_potential = 1e-8, accuracies = 10;
+/// How much a shape to begin at is bent [rad]: as much as a rod bends that is pushed hard.
+constexpr double typical_bending = 2.5;
 
 }  // namespace
 
@@ -28,8 +29,7 @@ std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const Tendo
   std::normal_distribution<double> normal;
   ArmOptions each = options;
   each.from_last = false;
-  // Potentials of one continuum differ by less, over EI/L or themselves: each has an error of its own.
-  const double alike = std::max(1e-8, 10 * options.accuracy);
+  const double alike = std::max(same_potential, accuracies * options.accuracy);
   const auto is_known = [&](const ArmState& state, bool continuum) {
     const double potential = whole_potential(state, commands);
     return std::ranges::any_of(found, [&](const ArmEquilibrium& other) {
@@ -38,8 +38,8 @@ std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const Tendo
                      scale = work.impl().rod().model().energy_scale + std::abs(there);
         if (std::abs(there - potential) < alike * scale) return true;
       }
-      return (other.state.tip.p - state.tip.p).norm() < 1e-5 * arm.length() &&
-             other.state.tip.R.compose(state.tip.R.inverse()).log().norm() < 1e-4;
+      return (other.state.tip.p - state.tip.p).norm() < same_tip * arm.length() &&
+             other.state.tip.R.compose(state.tip.R.inverse()).log().norm() < same_tip_angle;
     });
   };
   work.impl().grew = false;
@@ -60,9 +60,9 @@ std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const Tendo
     } else if (start == 0) {
       found.push_back({*state});
     }
-    // from another shape: bent at random, as much as a rod bends that is pushed hard
+    // from another shape, bent at random
     strain::LoadedRod& rod = work.impl().rod();
-    const double size = 2.5 * std::sqrt(rod.model().energy_scale);
+    const double size = typical_bending * std::sqrt(rod.model().energy_scale);
     std::ranges::fill(rod.work().y, 0.0);  // what it was twisted by would lead it to the same side again
     for (const strain::Piece& piece : rod.model().pieces)
       for (std::size_t c = 3; c < 5; ++c)

@@ -5,6 +5,10 @@
 namespace sinew::inline v1 {
 namespace {
 
+/// Equilibria and their Newton's steps of a search, of all its beginnings together [1]: a bound of time, for
+/// targets that are found mostly take ten to twenty equilibria.
+constexpr int most_work_of_arm = 10000;
+
 class PulledArm final : public PulledBody {
  public:
   PulledArm(const Arm& arm, const ArmLoad& load, const ArmOptions& options, ArmWorkspace& work)
@@ -93,12 +97,12 @@ ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const ArmLoad& l
   TensionSearch search{.tendons = arm.tendons.size(),
                        .length = length,
                        .usual = usual,
-                       .most = options.most_tension > 0 ? options.most_tension : 1e3 * usual,
+                       .most = most_tension(options, usual),
                        .asked = options.most_tension,
                        .precision = options.precision,
                        .starts = options.starts,
                        .from_last = options.arm.from_last,
-                       .most_work = 10000};
+                       .most_work = most_work_of_arm};
   return answer(RefinedArm(arm, load, options.arm, work).run(target, search));
 }
 

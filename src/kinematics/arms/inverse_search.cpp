@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/at.hpp"
+#include "kinematics/arms/bounded_least_squares.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -71,96 +71,6 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// Of all 0 ≤ x ≤ most that make A x = b as nearly as can be the one nearest to `centre`: an active set on
-/// (AᵀA + small) x = Aᵀb + small centre.
-std::vector<double> bounded_once(const std::vector<double>& A, const std::vector<double>& b,
-                                 const std::vector<double>& centre, double most) {
-  const std::size_t m = centre.size();
-  double size = 0;
-  for (const double a : A) size += a * a;
-  const double small = 1e-7 * size / static_cast<double>(m) + 1e-300;
-  std::vector<double> normal(m * m, 0.0), side(m, 0.0), x(m, 0.0);
-  for (std::size_t i = 0; i < m; ++i) {
-    side[i] = small * centre[i];
-    for (std::size_t r = 0; r < b.size(); ++r) side[i] += A[r * m + i] * b[r];
-    for (std::size_t j = 0; j < m; ++j)
-      for (std::size_t r = 0; r < b.size(); ++r) normal[i * m + j] += A[r * m + i] * A[r * m + j];
-    normal[i * m + i] += small;
-  }
-  enum class At { low, free, high };
-  std::vector<At> state(m, At::free);
-  for (int round = 0; round < 100; ++round) {
-    std::vector<std::size_t> free;
-    for (std::size_t i = 0; i < m; ++i)
-      if (state[i] == At::free) free.push_back(i);
-    const std::size_t n = free.size();
-    std::vector<double> small_matrix(n * n), right(n), found(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      right[i] = side[free[i]];
-      for (std::size_t j = 0; j < m; ++j)
-        if (state[j] == At::high) right[i] -= normal[free[i] * m + j] * most;
-      for (std::size_t j = 0; j < n; ++j) small_matrix[i * n + j] = normal[free[i] * m + free[j]];
-    }
-    // Cholesky's method
-    for (std::size_t k = 0; k < n; ++k) {
-      for (std::size_t j = 0; j < k; ++j)
-        small_matrix[k * n + k] -= small_matrix[k * n + j] * small_matrix[k * n + j];
-      small_matrix[k * n + k] = std::sqrt(std::max(small_matrix[k * n + k], 1e-300));
-      for (std::size_t i = k + 1; i < n; ++i) {
-        for (std::size_t j = 0; j < k; ++j)
-          small_matrix[i * n + k] -= small_matrix[i * n + j] * small_matrix[k * n + j];
-        small_matrix[i * n + k] /= small_matrix[k * n + k];
-      }
-    }
-    found = right;
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < i; ++j) found[i] -= small_matrix[i * n + j] * found[j];
-      found[i] /= small_matrix[i * n + i];
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      for (std::size_t j = i + 1; j < n; ++j) found[i] -= small_matrix[j * n + i] * found[j];
-      found[i] /= small_matrix[i * n + i];
-    }
-    bool changed = false;
-    for (std::size_t i = 0; i < m; ++i) x[i] = state[i] == At::high ? most : 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      x[free[i]] = found[i];
-      if (found[i] < 0) state[free[i]] = At::low, changed = true;
-      if (found[i] > most) state[free[i]] = At::high, changed = true;
-    }
-    if (changed) continue;
-    std::size_t worst = m;
-    double gain = 1e-12 * size;
-    for (std::size_t i = 0; i < m; ++i) {
-      if (state[i] == At::free) continue;
-      double slope = side[i];
-      for (std::size_t j = 0; j < m; ++j) slope -= normal[i * m + j] * x[j];
-      if (state[i] == At::high) slope = -slope;
-      if (slope > gain) gain = slope, worst = i;
-    }
-    if (worst == m) break;
-    state[worst] = At::free;
-  }
-  for (double& value : x) value = std::clamp(value, 0.0, most);
-  return x;
-}
-
-/// The same without what the weight of the centre leaves of A x − b: it is taken back.
-std::vector<double> bounded_least_squares(const std::vector<double>& A, const std::vector<double>& b,
-                                          const std::vector<double>& centre, double most) {
-  const std::size_t m = centre.size();
-  std::vector<double> asked = b, x;
-  for (int round = 0; round < 4; ++round) {
-    x = bounded_once(A, asked, centre, most);
-    for (std::size_t r = 0; r < b.size(); ++r) {
-      double left = b[r];
-      for (std::size_t i = 0; i < m; ++i) left -= A[r * m + i] * x[i];
-      asked[r] += left;
-    }
-  }
-  return x;
-}
-
 double squares(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value * value;
@@ -184,6 +94,11 @@ double usual_tension(const Arm& arm) {
       least = std::min(least, section.start.bending_x / (section.length * tendon.routes[m].start_radius));
     }
   return least;
+}
+
+double most_tension(const ArmInverseOptions& options, double usual) {
+  constexpr double unbounded = 1e3;  // usual tensions: an arm that is pulled so hard is bent to a point
+  return options.most_tension > 0 ? options.most_tension : unbounded * usual;
 }
 
 std::string_view target_misfit(const ArmTarget& target) {
@@ -214,6 +129,17 @@ double off_target(const ArmTarget& target, const SE3<double>& tip, double length
 
 namespace {
 
+/// Searches, each by finer polynomials than the one before [1]: it begins so near its end that more are only
+/// asked for where finer polynomials go on moving the tip.
+constexpr int most_refined_searches = 4;
+/// Equilibria and their Newton's steps of a search that is made again [1]: it has a few steps to go.
+constexpr int most_work_again = 1000;
+/// What is off by more than so many times the precision is not at the target [1]; what is off by less is,
+/// though finer polynomials may move it a little.
+constexpr double far_multiple = 10;
+/// What a tip is off where no equilibrium was found.
+constexpr double nowhere = 1e300;
+
 /// Of a search that ended without an equilibrium.
 Report without_equilibrium(const FoundTensions& found, const TensionSearch& search, int iterations) {
   const std::string why =
@@ -233,17 +159,17 @@ Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
   int iterations = 0;
   Report report;
   bool is_confirmed = true;
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < most_refined_searches; ++round) {
     const std::unique_ptr<PulledBody> searched = body(round == 0);
     const FoundTensions found = search_tensions(target, search, *searched);
     iterations += found.report.iterations;
     const Status status = found.report.status;
     if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
       return found.report;
-    if (!(found.report.residual < 1e300)) return without_equilibrium(found, search, iterations);
+    if (!(found.report.residual < nowhere)) return without_equilibrium(found, search, iterations);
     searched->bring_back();
     const bool is_near = found.report.residual <= search.precision,
-               is_far = found.report.residual > 10 * search.precision;
+               is_far = found.report.residual > far_multiple * search.precision;
     report = is_near || refines_nearest() ? refine(found.tensions) : as_found(*searched, found.tensions);
     is_confirmed = report.is_solved() || report.status == Status::stopped || !is_far;
     if (!is_confirmed) {
@@ -257,9 +183,9 @@ Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
     if (!is_near || report.residual <= search.precision) break;
     search.from_last = true;
     search.starts = 1;
-    search.most_work = 1000;
+    search.most_work = most_work_again;
   }
-  if (report.residual > 10 * search.precision) {
+  if (report.residual > far_multiple * search.precision) {
     const std::string up_to = search.asked > 0 ? fmt::format(" up to {:.4g} N", search.asked) : std::string();
     const std::string_view by = is_confirmed ? "" : ", by coarse polynomials that finer ones do not confirm";
     report.status = Status::unreachable;
@@ -270,106 +196,186 @@ Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
   return report;
 }
 
-FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& search, PulledBody& body) {
-  FoundTensions best;
-  best.report.residual = 1e300;
-  const std::size_t m = search.tendons;
-  const double usual = search.usual, most = search.most;
-  constexpr double near = 1e-3;  // of the length, or rad: what a step along the target may be off
-  int iterations = 0, spent = 0;
-  const auto pull = [&](const std::vector<double>& tensions, bool from_last) {
-    const Report report = body.pull(tensions, from_last);
-    spent += 1 + report.iterations;
+namespace {
+
+/// Steps from one beginning [1]: tensions that are found mostly take ten to twenty, and a way that takes this
+/// many goes to and fro.
+constexpr int most_tension_steps = 100;
+/// What a step along the target to less tension may be off it, over the length and [rad]: the last steps go
+/// back to it.
+constexpr double near_target = 1e-3;
+/// The first radius, and the least with which the way along the target begins, over the usual tension [1]:
+/// half a radian of bending, within which rates tell much, and a tenth.
+constexpr double first_radius = 0.5, first_radius_along = 0.1;
+/// Radii over the usual tension [1] below which a way along the target is given up for the last steps, and
+/// any way for good; and tensions over the usual one [1] that change so little that the least are found, or
+/// that no step is left.
+constexpr double least_radius_along = 1e-3, least_tension_radius = 1e-8, least_change_along = 1e-4,
+                 least_change = 1e-13;
+/// A radius that was used up doubles, and one that was too large becomes this share of the step [1].
+constexpr double wider = 2, narrower = 0.4;
+/// A step along the target to a larger sum is taken where it leaves less than this share of what the tip is
+/// off [1].
+constexpr double much_nearer = 0.3;
+/// First tensions beyond the first beginning over the usual one [1], and what each further beginning adds:
+/// from bent by about half a radian on.
+constexpr double first_pull = 0.4, more_pull = 0.15;
+
+/// To the target by the nearest tensions; along it to the least; and to the target again, exactly.
+enum class Phase { there, least, exact };
+
+class TensionSteps {
+ public:
+  TensionSteps(const ArmTarget& target, const TensionSearch& search, PulledBody& body)
+      : target_(target),
+        search_(search),
+        body_(body) {}
+  FoundTensions run() {
+    best_.report.residual = nowhere;
+    for (int start = 0;
+         start < search_.starts && best_.report.residual > search_.precision && spent_ < search_.most_work;
+         ++start) {
+      const bool has_begun = begin(start);
+      if (is_over_) return best_;
+      if (!has_begun) continue;
+      for (int k = 0; k < most_tension_steps && spent_ < search_.most_work; ++k, ++iterations_)
+        if (!step()) break;
+      if (is_over_) return best_;
+      if (error_ < best_.report.residual && report_.is_solved()) {
+        best_.tensions = tensions_;
+        best_.report = report_;
+        best_.report.residual = error_;
+        body_.keep();
+      }
+    }
+    best_.report.iterations = iterations_;
+    return best_;
+  }
+
+ private:
+  Report pull(const std::vector<double>& tensions, bool from_last) {
+    const Report report = body_.pull(tensions, from_last);
+    spent_ += 1 + report.iterations;
     return report;
-  };
-  const auto error_at = [&] { return off_target(target, body.tip(), search.length); };
-  for (int start = 0;
-       start < search.starts && best.report.residual > search.precision && spent < search.most_work;
-       ++start) {
+  }
+  double error() const { return off_target(target_, body_.tip(), search_.length); }
+  /// @returns false
+  bool end_with(const Report& report) {
+    best_.report = report;
+    best_.tensions = tensions_;
+    is_over_ = true;
+    return false;
+  }
+  /// None, or those of the last equilibrium; then of every tendon in turn, then of pairs of neighbours
+  /// further on.
+  std::vector<double> first_tensions(int start, bool from_last) const {
+    const std::size_t m = search_.tendons;
     std::vector<double> tensions(m, 0.0);
-    // every tendon in turn, then pairs of neighbours further on
     if (start > 0)
       for (std::size_t i = 0; i < m; ++i)
         if ((i * 7 + static_cast<std::size_t>(start) * 5) % m < 1 + m / 3)
-          tensions[i] = std::min(most, usual * (0.4 + 0.15 * start));
-    const bool from_last = start == 0 && search.from_last;
-    if (const auto last = body.last_tensions(); from_last && !last.empty())
-      for (std::size_t i = 0; i < m; ++i) tensions[i] = std::clamp(last[i], 0.0, most);
-    Report report = pull(tensions, from_last);
-    if (report.status == Status::bad_input || report.status == Status::stopped ||
-        report.status == Status::unsupported) {
-      best.report = report;
-      best.tensions = tensions;
-      return best;
-    }
-    if (!report.is_solved()) continue;
-    best.has_begun = true;
-    double error = error_at(), radius = 0.5 * usual, longest_before = 1e300;
-    // To the target by the nearest tensions; along it to the least; and to the target again, exactly.
-    enum class Way { there, least, exact } way = Way::there;
-    for (int k = 0; k < 100 && spent < search.most_work; ++k, ++iterations) {
-      if (way == Way::there && error < near) way = Way::least, radius = std::max(radius, 0.1 * usual);
-      if (way == Way::exact && error <= search.precision) break;
-      std::vector<double> J;
-      if (!body.rates(J)) break;
-      const Rows rows = rows_of(target, body.tip(), J, search.length);
-      std::vector<double> b = rows.off;
-      for (std::size_t r = 0; r < b.size(); ++r)
-        for (std::size_t i = 0; i < m; ++i) b[r] += rows.J[r * m + i] * tensions[i];
-      const bool least = way == Way::least;
-      std::vector<double> next =
-          bounded_least_squares(rows.J, b, least ? std::vector<double>(m, 0.0) : tensions, most);
-      double longest = 0;
-      for (std::size_t i = 0; i < m; ++i) longest = std::max(longest, std::abs(next[i] - tensions[i]));
-      if (least && longest < 1e-4 * usual) {
-        way = Way::exact;
-        continue;
-      }
-      if (longest < 1e-13 * usual) break;
-      const double share = std::min(1.0, radius / longest);
-      for (std::size_t i = 0; i < m; ++i) next[i] = tensions[i] + share * (next[i] - tensions[i]);
-      const Report trial = pull(next, true);
-      if (trial.status == Status::stopped) {
-        best.report = trial;
-        best.tensions = tensions;
-        return best;
-      }
-      const double after = trial.is_solved() ? error_at() : 1e300;
-      // Along the target the sum may rise a little again where that leads back to it.
-      const bool leads_back =
-          after < 0.3 * error || (after < 10 * search.precision && longest < longest_before);
-      if (least ? after < near && (squares(next) < squares(tensions) || leads_back) : after < error) {
-        longest_before = longest;
-        if (share < 1) radius *= 2;
-        tensions = next;
-        report = trial;
-        error = after;
-      } else {
-        radius = 0.4 * std::min(radius, longest);
-        report = pull(tensions, true);
-        if (!report.is_solved() && report.status != Status::stopped) {  // the way back gives way, too
-          report = pull(tensions, false);
-          if (report.is_solved()) error = error_at();
-        }
-        if (report.status == Status::stopped) {
-          best.report = report;
-          best.tensions = tensions;
-          return best;
-        }
-        if (!report.is_solved()) break;
-        if (radius < 1e-8 * usual) break;
-        if (least && radius < 1e-3 * usual) way = Way::exact, radius = usual;
-      }
-    }
-    if (error < best.report.residual && report.is_solved()) {
-      best.tensions = tensions;
-      best.report = report;
-      best.report.residual = error;
-      body.keep();
-    }
+          tensions[i] = std::min(search_.most, search_.usual * (first_pull + more_pull * start));
+    if (const auto last = body_.last_tensions(); from_last && !last.empty())
+      for (std::size_t i = 0; i < m; ++i) tensions[i] = std::clamp(last[i], 0.0, search_.most);
+    return tensions;
   }
-  best.report.iterations = iterations;
-  return best;
+  /// @returns whether the body has an equilibrium there
+  bool begin(int start) {
+    const bool from_last = start == 0 && search_.from_last;
+    tensions_ = first_tensions(start, from_last);
+    report_ = pull(tensions_, from_last);
+    if (report_.status == Status::bad_input || report_.status == Status::stopped ||
+        report_.status == Status::unsupported)
+      return end_with(report_);
+    if (!report_.is_solved()) return false;
+    best_.has_begun = true;
+    error_ = error();
+    radius_ = first_radius * search_.usual;
+    longest_before_ = 1e300;
+    phase_ = Phase::there;
+    return true;
+  }
+  /// Tensions that meet the target where the body is linear in them. False where it has no rates.
+  bool aim(std::vector<double>& next) {
+    std::vector<double> J;
+    if (!body_.rates(J)) return false;
+    const std::size_t m = search_.tendons;
+    const Rows rows = rows_of(target_, body_.tip(), J, search_.length);
+    std::vector<double> b = rows.off;
+    for (std::size_t r = 0; r < b.size(); ++r)
+      for (std::size_t i = 0; i < m; ++i) b[r] += rows.J[r * m + i] * tensions_[i];
+    next = bounded_least_squares(rows.J, b, phase_ == Phase::least ? std::vector<double>(m, 0.0) : tensions_,
+                                 search_.most);
+    return true;
+  }
+  /// @returns whether the way goes on
+  bool step() {
+    const double usual = search_.usual;
+    if (phase_ == Phase::there && error_ < near_target)
+      phase_ = Phase::least, radius_ = std::max(radius_, first_radius_along * usual);
+    if (phase_ == Phase::exact && error_ <= search_.precision) return false;
+    std::vector<double> next;
+    if (!aim(next)) return false;
+    double longest = 0;
+    for (std::size_t i = 0; i < next.size(); ++i)
+      longest = std::max(longest, std::abs(next[i] - tensions_[i]));
+    if (phase_ == Phase::least && longest < least_change_along * usual) {
+      phase_ = Phase::exact;
+      return true;
+    }
+    if (longest < least_change * usual) return false;
+    const double share = std::min(1.0, radius_ / longest);
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] = tensions_[i] + share * (next[i] - tensions_[i]);
+    const Report trial = pull(next, true);
+    if (trial.status == Status::stopped) return end_with(trial);
+    const double after = trial.is_solved() ? error() : nowhere;
+    if (!is_better(next, after, longest)) return step_back(longest);
+    longest_before_ = longest;
+    if (share < 1) radius_ *= wider;
+    tensions_ = next;
+    report_ = trial;
+    error_ = after;
+    return true;
+  }
+  bool is_better(const std::vector<double>& next, double after, double longest) const {
+    if (phase_ != Phase::least) return after < error_;
+    // Along the target the sum may rise a little again where that leads back to it.
+    const bool leads_back = after < much_nearer * error_ ||
+                            (after < far_multiple * search_.precision && longest < longest_before_);
+    return after < near_target && (squares(next) < squares(tensions_) || leads_back);
+  }
+  /// To where it was, for a shorter step. @returns whether the way goes on
+  bool step_back(double longest) {
+    radius_ = narrower * std::min(radius_, longest);
+    report_ = pull(tensions_, true);
+    if (!report_.is_solved() && report_.status != Status::stopped) {  // the way back gives way, too
+      report_ = pull(tensions_, false);
+      if (report_.is_solved()) error_ = error();
+    }
+    if (report_.status == Status::stopped) return end_with(report_);
+    if (!report_.is_solved() || radius_ < least_tension_radius * search_.usual) return false;
+    if (phase_ == Phase::least && radius_ < least_radius_along * search_.usual)
+      phase_ = Phase::exact, radius_ = search_.usual;
+    return true;
+  }
+
+  const ArmTarget& target_;
+  const TensionSearch& search_;
+  PulledBody& body_;
+  FoundTensions best_;
+  bool is_over_ = false;  ///< what was found is answered at once
+  int iterations_ = 0, spent_ = 0;
+  /// Of the step that was taken last: it was the last that the body took, too.
+  std::vector<double> tensions_;
+  Report report_;
+  double error_ = 0, radius_ = 0, longest_before_ = 0;
+  Phase phase_ = Phase::there;
+};
+
+}  // namespace
+
+FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& search, PulledBody& body) {
+  return TensionSteps(target, search, body).run();
 }
 
 }  // namespace sinew::inline v1

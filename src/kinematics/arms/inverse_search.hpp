@@ -40,7 +40,7 @@ struct TensionSearch {
   double precision = 0;
   int starts = 0;
   bool from_last = false;
-  int most_work = 1 << 30;  ///< equilibria and their iterations, of all starts
+  int most_work = 1 << 30;  ///< equilibria and their iterations, of all starts: any number, if not told
 };
 struct FoundTensions {
   Report report;  ///< of the equilibrium; its residual is what the tip is off, 1e300 where none was found
@@ -78,6 +78,8 @@ double off_target(const ArmTarget& target, const SE3<double>& tip, double length
 std::string_view target_misfit(const ArmTarget& target);
 /// The tension of a tendon that bends its section by about one radian: the least of all [N].
 double usual_tension(const Arm& arm);
+/// The bound that the question sets, or one beyond what any arm is pulled with [N].
+double most_tension(const ArmInverseOptions& options, double usual);
 std::vector<TendonCommand> as_commands(const std::vector<double>& tensions);
 
 }  // namespace sinew::inline v1

@@ -8,31 +8,181 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// What lessens the squares most within a radius: damped until it is short enough. A slender arm hardly
-/// stretches, so that along it the undamped step asks for forces that bend it anywhere.
-template <class Scale>
-std::array<double, 6> within(const std::vector<double>& normal, const std::vector<double>& side,
-                             double radius, const Scale& scale) {
-  const std::size_t count = side.size();
-  const auto n = static_cast<Eigen::Index>(count);
-  double largest = 0, damping = 0;
-  for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, normal[i * count + i]);
-  std::vector<double> damped, found(count);
-  std::array<double, 6> step{};
-  for (int tries = 0; tries < 200; ++tries) {
-    damped = normal;
-    for (std::size_t i = 0; i < count; ++i) damped[i * count + i] += damping;
-    double longest = 1e300;
-    if (solve({damped.data(), n, n}, {side.data(), n, 1}, found)) {
-      longest = 0;
-      for (const double x : found) longest = std::max(longest, std::abs(x));
-    }
-    if (longest <= radius) break;
-    damping = damping > 0 ? 2 * damping : 1e-14 * largest;
+/// Dampings that are tried [1]: from the least, which doubles, they pass what any radius needs, and a matrix
+/// that no damping makes regular ends here.
+constexpr int most_dampings = 200;
+/// The least damping over the largest square of the rates [1]: some tens of times what rounding leaves of it.
+constexpr double least_damping = 1e-14;
+
+/// Steps of a search, those that are taken back with them [1]: each costs an equilibrium, and a search that
+/// takes this many goes to and fro.
+constexpr int most_wrench_steps = 200;
+/// A share of the squares by which rounding may raise them [1].
+constexpr double rounding_of_squares = 1e-9;
+/// A radius that is less than this share of the wrench [1] changes the squares by no more than rounding ...
+constexpr double least_radius = 1e-7;
+/// ... and a step that is less than this share of it is as good as none [1].
+constexpr double least_step = 1e-9;
+/// In place of the size of a wrench that is 0, which has no shares [N].
+constexpr double least_wrench = 1e-6;
+/// Of a step that was taken back the radius of the next [1], and by what a radius grows after one that used
+/// more than half of it [1]: shorter at once, for a step costs an equilibrium, and longer as quickly, for the
+/// first is a guess.
+constexpr double shorter = 0.25, longer = 3;
+/// Below this ratio of eigenvalues [1] rounding hides the wrench's worst known direction: a slender arm
+/// yields a million times more across than along, so that its squares have 1e-12.
+constexpr double smallest_ratio = 1e-15;
+
+/// Gauss's and Newton's method, damped to a radius.
+class WrenchSteps {
+ public:
+  WrenchSteps(const WrenchSearch& search, LoadedBody& body)
+      : search_(search),
+        body_(body),
+        wrench_(search.first),
+        radius_(search.usual) {
+    sensed_.wrench = search.first;
   }
-  for (std::size_t i = 0; i < count; ++i) step[i] = found[i] * scale(i);
-  return step;
-}
+  FoundWrench run() {
+    bool from_last = search_.from_last;
+    int spent = 0;
+    for (int round = 0; round < most_wrench_steps && spent < search_.most_work; ++round) {
+      load(from_last, round, spent);
+      if (sensed_.report.status == Status::bad_input || sensed_.report.status == Status::unsupported ||
+          sensed_.report.status == Status::stopped)
+        return sensed_;
+      from_last = sensed_.report.is_solved();
+      double misfit = 1e300;
+      Comparison with;
+      if (sensed_.report.is_solved() && body_.compare(with)) {
+        misfit = squares_of(with.off);
+      } else if (round == 0) {  // nothing to begin from
+        if (sensed_.report.is_solved())
+          sensed_.report = {Status::singular, 0, sensed_.report.residual,
+                            FixedText<240>("the equilibrium is a fold: it has no rates")};
+        return sensed_;
+      }
+      if (!(misfit < before_ * (1 + rounding_of_squares)) && round > 0) {  // a shorter one from where it was
+        take(-1);
+        radius_ = shorter * step_size();
+        if (radius_ < least_radius * std::max(wrench_size(), least_wrench)) {  // as near as rounding lets it
+          load(from_last, round, spent);
+          return with_covariance();
+        }
+        step_ = step_within_radius();
+        take(1);
+        continue;
+      }
+      if (round > 0 && step_size() > 0.5 * radius_) radius_ *= longer;
+      before_ = misfit;
+      set_normal_equations(with);
+      sensed_.misfit = std::sqrt(misfit / static_cast<double>(with.off.size()));
+      sensed_.wrench = wrench_;
+      step_ = step_within_radius();
+      if (step_size() < least_step * std::max(wrench_size(), least_wrench)) return with_covariance();
+      take(1);
+    }
+    return unsettled();
+  }
+
+ private:
+  /// Moments count by the length.
+  double scale(std::size_t k) const { return search_.components[k] < 3 ? 1.0 : search_.length; }
+  void load(bool from_last, int round, int& spent) {
+    sensed_.report = body_.load(wrench_, from_last);
+    spent += 1 + sensed_.report.iterations;
+    sensed_.report.iterations = round;
+  }
+  static double squares_of(const std::vector<double>& off) {
+    double sum = 0;
+    for (const double x : off) sum += x * x;
+    return sum;
+  }
+  void take(double sign) {
+    for (std::size_t k = 0; k < search_.unknowns; ++k) wrench_[search_.components[k]] += sign * step_[k];
+  }
+  double step_size() const {
+    double size = 0;
+    for (std::size_t k = 0; k < search_.unknowns; ++k) size = std::max(size, std::abs(step_[k]) / scale(k));
+    return size;
+  }
+  double wrench_size() const {
+    double size = 0;
+    for (std::size_t k = 0; k < search_.unknowns; ++k)
+      size = std::max(size, std::abs(wrench_[search_.components[k]]) / scale(k));
+    return size;
+  }
+  void set_normal_equations(const Comparison& with) {
+    const auto& [off, rows] = with;
+    const auto& which = search_.components;
+    const std::size_t unknowns = search_.unknowns;
+    normal_.assign(unknowns * unknowns, 0.0);
+    side_.assign(unknowns, 0.0);
+    for (std::size_t i = 0; i < unknowns; ++i)
+      for (std::size_t r = 0; r < off.size(); ++r) {
+        side_[i] += rows[r * 6 + which[i]] * scale(i) * off[r];
+        for (std::size_t j = 0; j < unknowns; ++j)
+          normal_[i * unknowns + j] += rows[r * 6 + which[i]] * scale(i) * rows[r * 6 + which[j]] * scale(j);
+      }
+  }
+  /// What lessens the squares most within a radius: damped until it is short enough. A slender arm hardly
+  /// stretches, so that along it the undamped step asks for forces that bend it anywhere.
+  std::array<double, 6> step_within_radius() const {
+    const std::size_t count = side_.size();
+    const auto n = static_cast<Eigen::Index>(count);
+    double largest = 0, damping = 0;
+    for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, normal_[i * count + i]);
+    std::vector<double> damped, found(count);
+    std::array<double, 6> step{};
+    for (int tries = 0; tries < most_dampings; ++tries) {
+      damped = normal_;
+      for (std::size_t i = 0; i < count; ++i) damped[i * count + i] += damping;
+      double longest = 1e300;
+      if (solve({damped.data(), n, n}, {side_.data(), n, 1}, found)) {
+        longest = 0;
+        for (const double x : found) longest = std::max(longest, std::abs(x));
+      }
+      if (longest <= radius_) break;
+      damping = damping > 0 ? 2 * damping : least_damping * largest;
+    }
+    for (std::size_t i = 0; i < count; ++i) step[i] = found[i] * scale(i);
+    return step;
+  }
+  FoundWrench with_covariance() {
+    const std::size_t unknowns = search_.unknowns;
+    const auto& which = search_.components;
+    std::vector<double> identity(unknowns * unknowns, 0.0), inverse(unknowns * unknowns), values(unknowns);
+    for (std::size_t i = 0; i < unknowns; ++i) identity[i * unknowns + i] = 1;
+    const auto n = static_cast<Eigen::Index>(unknowns);
+    symmetric_eigenvalues({normal_.data(), n, n}, values);
+    if (!(values.front() > smallest_ratio * values.back()) ||
+        !solve({normal_.data(), n, n}, {identity.data(), n, n}, inverse)) {
+      sensed_.report = {
+          Status::singular, sensed_.report.iterations, sensed_.report.residual,
+          FixedText<240>("what is measured does not tell the wrench: measure more, or ask the force alone")};
+      return sensed_;
+    }
+    sensed_.condition = std::sqrt(values.back() / values.front());
+    for (std::size_t i = 0; i < unknowns; ++i)
+      for (std::size_t j = 0; j < unknowns; ++j)
+        sensed_.covariance[which[i] * 6 + which[j]] = inverse[i * unknowns + j] * scale(i) * scale(j);
+    return sensed_;
+  }
+  FoundWrench unsettled() {
+    sensed_.report = {
+        Status::iteration_limit, sensed_.report.iterations, sensed_.report.residual,
+        FixedText<240>("no wrench explains what was measured better, nor does the search settle: "
+                       "what is measured may contradict itself")};
+    return sensed_;
+  }
+
+  const WrenchSearch& search_;
+  LoadedBody& body_;
+  FoundWrench sensed_;
+  std::array<double, 6> wrench_, step_{};  ///< a step is of the unknowns
+  double before_ = 1e300, radius_;         ///< squares at the step that was taken last [1]; [N]
+  std::vector<double> normal_, side_;      ///< of its linear least squares
+};
 
 }  // namespace
 
@@ -62,104 +212,7 @@ std::string_view measurement_misfit(std::size_t tendons, const std::vector<Tendo
 }
 
 FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {
-  FoundWrench sensed;
-  sensed.wrench = search.first;
-  const std::size_t unknowns = search.unknowns;
-  // Moments count by the length.
-  const auto& which = search.components;
-  const auto scale = [&](std::size_t k) { return which[k] < 3 ? 1.0 : search.length; };
-  std::array<double, 6> wrench = search.first, step{};  // a step is of the unknowns
-  double before = 1e300, radius = search.usual;
-  std::vector<double> normal, side;
-  const auto take = [&](double sign) {
-    for (std::size_t k = 0; k < unknowns; ++k) wrench[which[k]] += sign * step[k];
-  };
-  const auto step_size = [&] {
-    double size = 0;
-    for (std::size_t k = 0; k < unknowns; ++k) size = std::max(size, std::abs(step[k]) / scale(k));
-    return size;
-  };
-  const auto wrench_size = [&] {
-    double size = 0;
-    for (std::size_t k = 0; k < unknowns; ++k) size = std::max(size, std::abs(wrench[which[k]]) / scale(k));
-    return size;
-  };
-  const auto with_covariance = [&] {
-    std::vector<double> identity(unknowns * unknowns, 0.0), inverse(unknowns * unknowns), values(unknowns);
-    for (std::size_t i = 0; i < unknowns; ++i) identity[i * unknowns + i] = 1;
-    const auto n = static_cast<Eigen::Index>(unknowns);
-    symmetric_eigenvalues({normal.data(), n, n}, values);
-    // A slender arm yields a million times more across than along: its squares have 1e-12.
-    if (!(values.front() > 1e-15 * values.back()) ||
-        !solve({normal.data(), n, n}, {identity.data(), n, n}, inverse)) {
-      sensed.report = {
-          Status::singular, sensed.report.iterations, sensed.report.residual,
-          FixedText<240>("what is measured does not tell the wrench: measure more, or ask the force alone")};
-      return sensed;
-    }
-    sensed.condition = std::sqrt(values.back() / values.front());
-    for (std::size_t i = 0; i < unknowns; ++i)
-      for (std::size_t j = 0; j < unknowns; ++j)
-        sensed.covariance[which[i] * 6 + which[j]] = inverse[i * unknowns + j] * scale(i) * scale(j);
-    return sensed;
-  };
-  bool from_last = search.from_last;
-  int spent = 0;
-  for (int round = 0; round < 200 && spent < search.most_work; ++round) {
-    sensed.report = body.load(wrench, from_last);
-    spent += 1 + sensed.report.iterations;
-    sensed.report.iterations = round;
-    if (sensed.report.status == Status::bad_input || sensed.report.status == Status::unsupported ||
-        sensed.report.status == Status::stopped)
-      return sensed;
-    from_last = sensed.report.is_solved();
-    double misfit = 1e300;
-    Comparison with;
-    const auto& [off, rows] = with;
-    if (sensed.report.is_solved()) {
-      if (body.compare(with)) {
-        misfit = 0;
-        for (const double x : off) misfit += x * x;
-      } else if (round == 0) {
-        sensed.report = {Status::singular, 0, sensed.report.residual,
-                         FixedText<240>("the equilibrium is a fold: it has no rates")};
-        return sensed;
-      }
-    } else if (round == 0) {
-      return sensed;  // nothing to begin from
-    }
-    if (!(misfit < before * (1 + 1e-9)) && round > 0) {  // a shorter one from where it was
-      take(-1);
-      radius = 0.25 * step_size();
-      if (radius < 1e-7 * std::max(wrench_size(), 1e-6)) {  // as near as rounding lets it
-        sensed.report = body.load(wrench, from_last);
-        sensed.report.iterations = round;
-        return with_covariance();
-      }
-      step = within(normal, side, radius, scale);
-      take(1);
-      continue;
-    }
-    if (round > 0 && step_size() > 0.5 * radius) radius *= 3;
-    before = misfit;
-    normal.assign(unknowns * unknowns, 0.0);
-    side.assign(unknowns, 0.0);
-    for (std::size_t i = 0; i < unknowns; ++i)
-      for (std::size_t r = 0; r < off.size(); ++r) {
-        side[i] += rows[r * 6 + which[i]] * scale(i) * off[r];
-        for (std::size_t j = 0; j < unknowns; ++j)
-          normal[i * unknowns + j] += rows[r * 6 + which[i]] * scale(i) * rows[r * 6 + which[j]] * scale(j);
-      }
-    sensed.misfit = std::sqrt(misfit / static_cast<double>(off.size()));
-    sensed.wrench = wrench;
-    step = within(normal, side, radius, scale);
-    if (step_size() < 1e-9 * std::max(wrench_size(), 1e-6)) return with_covariance();
-    take(1);
-  }
-  sensed.report = {Status::iteration_limit, sensed.report.iterations, sensed.report.residual,
-                   FixedText<240>("no wrench explains what was measured better, nor does the search settle: "
-                                  "what is measured may contradict itself")};
-  return sensed;
+  return WrenchSteps(search, body).run();
 }
 
 }  // namespace sinew::inline v1

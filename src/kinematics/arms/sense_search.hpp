@@ -54,7 +54,7 @@ struct WrenchSearch {
   double length = 0;  ///< by which moments count [m]
   double usual = 0;   ///< force that bends much [N]: further no step goes at first
   bool from_last = false;
-  int most_work = 1 << 30;  ///< equilibria and their iterations
+  int most_work = 1 << 30;  ///< equilibria and their iterations: any number, if not told
 };
 struct FoundWrench {
   Report report;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kinematics/arm_legs/group/legs_loads.hpp"
 #include "kinematics/arms/arm_work.hpp"
 #include "robot/limbs/limb_group.hpp"
 #include "sinew/kinematics/arm_legs.hpp"
@@ -12,22 +13,8 @@
 
 namespace sinew::inline v1 {
 
-/// What acts beside the wrench on the platform, and the gravity of the whole.
-struct LegsLoads {
-  std::array<double, 3> gravity{}, along{}, following_along{};
-  std::array<double, 6> following{};  ///< on the platform, in its axes
-  std::vector<ArmLegsPointLoad> points = {};
-};
-/// At a share of the way from one to another.
-LegsLoads mix(const LegsLoads& from, const LegsLoads& to, double share);
-
-/// Places of each leg where its rod has nodes beside its own, in order and none twice [m].
-using LegsBreaks = std::vector<std::vector<double>>;
-/// Where loads act that are not 0.
-LegsBreaks breaks_for(const ArmLegs& robot, const LegsLoads& loads);
-
-/// A feed is a tendon: those of leg 0 first. Its own states are strains, tensions where lengths are held, and
-/// what the platform exerts on the tip. Unlike other groups it allocates.
+/// A feed is a tendon: those of leg 0 first. Its own states are strains, tensions where lengths are
+/// prescribed, and what the platform exerts on the tip. Unlike other groups it allocates.
 class ArmGroup final : public LimbGroup<Spatial> {
  public:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -36,12 +23,11 @@ class ArmGroup final : public LimbGroup<Spatial> {
   /// At rest: strains of the rest shape, the platform at home. The robot has to last as long.
   /// @param breaks where loads may act on legs
   ArmGroup(const ArmLegs& robot, const ArmBasis& basis, const LegsBreaks& breaks);
-  /// What is held of all tendons, and the load of the whole.
+  /// Commands of all tendons, and the load of the whole.
   void set_problem(std::span<const TendonCommand> commands, const Wrench& wrench, const LegsLoads& loads);
   /// Only a share of inputs and loads acts, and only that share of the gaps between tips and platform at home
-  /// is closed: at 0 the rest is an equilibrium, at 1 all holds.
+  /// is closed: at 0 the rest is an equilibrium, at 1 all act and every gap is closed.
   void set_share(double share);
-  double share() const { return share_; }
   /// At rest with the platform elsewhere, free joints turned towards it: the gaps are those of there. Of a
   /// group at rest.
   void begin_at(const Frame& platform);
@@ -98,23 +84,23 @@ class ArmGroup final : public LimbGroup<Spatial> {
   /// Directions of the whole, after `factor_limbs`; −1 where it is not finite. Under loads that have no
   /// potential they are those of the symmetric part.
   int unstable() const;
-  /// Of an equilibrium, after `factor_limbs`: columns by what is held of every tendon, then by a wrench on
+  /// Of an equilibrium, after `factor_limbs`: columns by the command of every tendon, then by a wrench on
   /// the platform. It needs no finite stiffness. False where the whole is singular.
   bool answers(Matrix& twists, Matrix& by_tendon) const;
   /// @}
 
-  /// @name With the platform held: its balance does not count
+  /// @name At a prescribed pose: the platform's balance does not count
   /// @{
   void set_platform(const Frame& platform) { platform_ = platform; }
-  bool plan_held();           ///< after `factor_limbs`: false where a leg alone is singular
-  int unstable_held() const;  ///< directions of the legs, after `factor_limbs`
-  /// Of the platform on its legs beyond weight and wrench, after `evaluate`.
-  Wrench wrench_missing() const { return -balance_; }
+  bool plan_at_prescribed_pose();           ///< after `factor_limbs`: false where a leg alone is singular
+  int unstable_at_prescribed_pose() const;  ///< directions of the legs, after `factor_limbs`
+  /// What the legs need on the platform beyond weight and wrench, after `evaluate`.
+  Wrench constraint_wrench() const { return -balance_; }
   /// @}
 
-  /// What would hold the tendon now as the command is to hold it.
-  double held_as(int feed, TendonHeld held) const {
-    return held == TendonHeld::tension ? tension(feed) : change(feed);
+  /// The tension or the change that the tendon has.
+  double value_of(int feed, TendonHeld quantity) const {
+    return quantity == TendonHeld::tension ? tension(feed) : change(feed);
   }
   const LegsLoads& loads() const { return loads_; }
 
@@ -126,11 +112,11 @@ class ArmGroup final : public LimbGroup<Spatial> {
   double tension(int feed) const;
   double change(int feed) const;      ///< of its end, > 0: paid out [m]
   double slack(int feed) const;       ///< what it is longer than its way [m]
-  Wrench push(int limb) const;        ///< of a leg on the platform, about its reference point, base axes
   Wrench tip_wrench(int limb) const;  ///< of the platform on a tip, about the tip, base axes
   const ArmWorkspace& shape(int limb) const { return legs_[static_cast<std::size_t>(limb)].work; }
-  /// No clamped tip stands the other way round, by 90 degrees or more, where its equations hold, too.
-  bool mounts_hold() const;
+  /// No clamped tip is turned against its mount by 90 degrees or more: the closure's equations have solutions
+  /// there, too.
+  bool clamps_are_aligned() const;
 
  private:
   struct Tendon {
@@ -139,8 +125,8 @@ class ArmGroup final : public LimbGroup<Spatial> {
     double free_length = 0, target = 0;  ///< at the share that acts [m], [N]
     double tension = 0;                  ///< [N]
     double unit = 0;                     ///< of its own length's error by tension [m/N]
-    bool is_taut = false;                ///< its length is held and it pulls
-    int place = -1;                      ///< among the unknown forces, or the held tensions
+    bool is_taut = false;                ///< its length is prescribed and it pulls
+    int place = -1;                      ///< among the unknown forces, or the prescribed tensions
   };
   struct Leg {
     const ArmLeg* own;
@@ -156,7 +142,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
     /// Which of force and moment the closure's unknowns are: 0 to 2 and 3 to 5.
     std::array<int, 6> components{0, 1, 2, 3, 4, 5};
     Matrix B, HB;            ///< rows of the unknowns, those of joints that turn freely last; H⁻¹Bᵀ
-    Matrix L, HL;            ///< of held tensions
+    Matrix L, HL;            ///< of prescribed tensions
     Vector y0, r;            ///< −H⁻¹ gradient; what is missing with it
     Matrix D, D_inverse, X;  ///< their compliance; rows by the platform's twist
     Vector C;                ///< what the compliance is without the backbone's
@@ -182,9 +168,13 @@ class ArmGroup final : public LimbGroup<Spatial> {
   void measure_closure(Leg& leg);
   void keep_in_plane(Wrench& wrench) const;
   /// Of a robot in the plane: what moves it out is as stiff as `units` say, and coupled to nothing.
-  template <class AnySquare>
-  void hold_in_plane(AnySquare& by_twist, const std::array<double, 2>& units) const;
+  void constrain_to_plane(Eigen::Ref<Matrix> by_twist, const std::array<double, 2>& units) const;
+  static double yields(const Arm& arm, const ArmTendon& tendon);
+  static double measure_tendons(Leg& leg);
   void evaluate(Leg& leg);
+  static void set_tendon_rows(Leg& leg);
+  void set_closure_rows(Leg& leg);
+  static void condense(Leg& leg);
   bool factor(Leg& leg);
   void advance(Leg& leg, const Frame& after, Numbers by_input);
   Mat<double, 6, 6> curvature(const Leg& leg) const;
@@ -204,6 +194,9 @@ class ArmGroup final : public LimbGroup<Spatial> {
   Wrench turning_wrench() const;  ///< of what turns with the platform, base axes
   /// Of all unknown forces and the platform, without dimension. @param D of every leg, or of none: its own
   Matrix whole(std::span<const SymmetricPart> parts = {}) const;
+  static double planned_bend(const Leg& leg);
+  Matrix rate_sides(Eigen::Index size) const;
+  void set_tendon_rates(const Leg& leg, const Matrix& forces, Matrix& by_tendon) const;
   Vector units() const;
   Vector units_of(const Leg& leg) const;
   std::pair<const Leg*, const Tendon*> find(int feed) const;
@@ -215,7 +208,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   LegsLoads loads_;
   double share_ = 0, radius_ = 0;
   int feeds_ = 0;
-  double error_ = 0, limb_error_ = 0, planned_size_ = 0;
+  double limb_error_ = 0, planned_size_ = 0;
   Wrench balance_ = Wrench::Zero(), residual_ = Wrench::Zero();
   Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness_ = Eigen::Matrix<double, 6, 6>::Zero();
   SmallLu<6> lu_;

@@ -1,0 +1,24 @@
+/// @file regular_lu.hpp
+/// Factors of a matrix that is far enough from a singular one.
+#pragma once
+#include <Eigen/LU>
+
+#include <cmath>
+#include <optional>
+
+namespace sinew::inline v1 {
+
+/// A last pivot below this share of the largest [1] is one of rounding: equations are scaled by their units,
+/// so that regular ones have pivots of like size, and rounding leaves about 1e-16 of the largest.
+constexpr double smallest_pivot = 1e-13;
+
+/// None where the matrix is singular or not finite.
+using RegularLu = Eigen::FullPivLU<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+inline std::optional<RegularLu> regular_lu(const RegularLu::MatrixType& matrix) {
+  if (!matrix.allFinite()) return {};
+  std::optional<RegularLu> lu(std::in_place, matrix);
+  if (!(std::abs(lu->matrixLU().diagonal().tail(1)[0]) > smallest_pivot * lu->maxPivot())) return {};
+  return lu;
+}
+
+}  // namespace sinew::inline v1

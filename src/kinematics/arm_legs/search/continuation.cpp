@@ -1,0 +1,92 @@
+#include "kinematics/arm_legs/search/continuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/pose.hpp"
+
+namespace sinew::inline v1 {
+namespace {
+
+/// A shorter step than this share of the way [1] means that the equilibrium is lost: at a fold steps would
+/// halve without end, and what was reached is told in hundredths of a per cent.
+constexpr double shortest_step = 1e-4;
+/// Newton's steps after which the next share may be twice as long [1]: less than half of those it may take,
+/// so that there is room for more.
+constexpr int quick_newton_steps = 6;
+
+/// All that `put` sets changes from a share of it to the whole; the group is at an equilibrium of the first.
+/// @param put what acts, and where a prescribed pose is, at a share of the way
+/// @param reached share of it up to which a stable equilibrium was found
+template <class Put>
+LegsFound continue_to_end(ArmGroup& group, const Put& put, bool is_pose_prescribed, const ArmOptions& options,
+                          const StopToken& stop, double& reached, int max_steps = 0) {
+  LegsFound all;
+  LimbState last = group.state();
+  double step = 1;
+  for (int tried = 1;; ++tried) {
+    const double share = std::min(1.0, reached + step);
+    put(share);
+    const LegsFound found = iterate_legs(group, is_pose_prescribed, options, stop, all.iterations);
+    all.iterations += found.iterations;
+    all.residual = found.residual;
+    if (found.status == Status::stopped || found.status == Status::iteration_limit) {
+      all.status = found.status;
+      return all;
+    }
+    const bool is_found = found.status == Status::converged && group.clamps_are_aligned();
+    if (is_found && is_stable(group, is_pose_prescribed)) {
+      reached = share;
+      if (share == 1) return all;
+      group.save(last);
+      if (found.iterations <= quick_newton_steps) step *= 2;
+    } else {
+      all.last_step = is_found ? Status::unstable : found.status;
+      group.restore(last);
+      step *= 0.5;
+    }
+    if (step >= shortest_step && (max_steps == 0 || tried < max_steps)) continue;
+    put(reached);
+    group.restore(last);
+    group.evaluate();
+    all.status = Status::stalled;
+    return all;
+  }
+}
+
+}  // namespace
+
+ArmGroup::Frame displaced_by_share(const ArmGroup::Frame& from, const Vec<double, 6>& twist, double share) {
+  return {from.p + share * twist.head<3>(),
+          SO3<double>::exp(Vec3<double>(share * twist.tail<3>())).compose(from.R)};
+}
+
+LegsFound grow_legs(ArmGroup& group, const ArmOptions& options, const StopToken& stop, double& reached) {
+  reached = 0;
+  return continue_to_end(
+      group, [&](double share) { group.set_share(share); }, false, options, stop, reached);
+}
+
+LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
+                    const StopToken& stop, double& reached, int max_steps) {
+  LegsProblem on_the_way = problem;
+  std::vector<double> first;
+  for (std::size_t i = 0; i < problem.commands.size(); ++i)
+    first.push_back(group.value_of(static_cast<int>(i), problem.commands[i].held));
+  const ArmGroup::Wrench wrench = group.wrench();
+  const LegsLoads loads = group.loads();
+  const ArmGroup::Frame from = group.platform();
+  const auto& pose = problem.prescribed_pose;
+  const Vec<double, 6> way = pose ? twist_between(from, *pose) : Vec<double, 6>::Zero();
+  const auto put = [&](double share) {
+    for (std::size_t i = 0; i < first.size(); ++i)
+      on_the_way.commands[i].value = std::lerp(first[i], problem.commands[i].value, share);
+    const ArmGroup::Wrench acts = (1 - share) * wrench + share * problem.wrench;
+    group.set_problem(on_the_way.commands, acts, mix(loads, problem.loads, share));
+    if (pose) group.set_platform(displaced_by_share(from, way, share));
+  };
+  reached = 0;
+  return continue_to_end(group, put, pose.has_value(), options, stop, reached, max_steps);
+}
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,58 @@
+#include "kinematics/arm_legs/search/newton.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace sinew::inline v1 {
+namespace {
+
+/// The largest turn of a leg or the platform in one of Newton's steps [rad]: up to there a step that is
+/// linear in the turn is right to 6 % (sin 0.6 = 0.565), and further ones may lead to other equilibria than
+/// the nearest.
+constexpr double longest_turn = 0.6;
+/// Steps at one share [1]. Near an equilibrium errors square with each, so that a handful does; what takes
+/// more than this does not converge, or converges elsewhere, and half the share costs less.
+constexpr int most_newton_steps = 15;
+/// A step that leaves more than this share of the residual [1] is none of quadratic convergence ...
+constexpr double slow_share = 0.3;
+/// ... and where two of them follow within this multiple of the tolerance [1] what is left is taken for
+/// rounding of large terms that cancel; further away it is a failure to converge.
+constexpr double rounding_multiple = 1e3;
+
+}  // namespace
+
+LegsFound iterate_legs(ArmGroup& group, bool is_pose_prescribed, const ArmOptions& options,
+                       const StopToken& stop, int spent) {
+  LegsFound found;
+  double before = std::numeric_limits<double>::infinity();
+  bool was_slow = false;
+  const auto end = [&](Status status) {
+    found.status = status;
+    return found;
+  };
+  for (;; ++found.iterations) {
+    found.residual = group.evaluate();
+    if (is_pose_prescribed) found.residual = group.limb_error();
+    if (!std::isfinite(found.residual)) return end(Status::left_domain);
+    if (found.residual <= options.tolerance) return found;
+    const bool is_slow = found.residual > slow_share * before;
+    if (found.residual <= rounding_multiple * options.tolerance && is_slow && was_slow)
+      return found;  // as near as rounding lets it
+    was_slow = is_slow;
+    before = found.residual;
+    if (stop.stop_requested()) return end(Status::stopped);
+    if (spent + found.iterations >= options.max_iterations) return end(Status::iteration_limit);
+    if (found.iterations >= most_newton_steps) return end(Status::stalled);
+    if (!group.factor_limbs() || !(is_pose_prescribed ? group.plan_at_prescribed_pose() : group.plan()))
+      return end(Status::singular);
+    if (group.planned_size() > longest_turn) return end(Status::stalled);
+    group.move_as_planned();
+  }
+}
+
+bool is_stable(ArmGroup& group, bool is_pose_prescribed) {
+  return group.factor_limbs() &&
+         (is_pose_prescribed ? group.unstable_at_prescribed_pose() : group.unstable()) == 0;
+}
+
+}  // namespace sinew::inline v1
