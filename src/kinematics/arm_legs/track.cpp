@@ -100,7 +100,7 @@ std::vector<ArmLegsState> arm_legs_track(const ArmLegs& robot, std::span<const A
     return points;
   };
   if (const Report misfit = steps_misfit(robot, steps, options.arm, work); !misfit.ok()) {
-    impl.state = {};
+    refuse_question(misfit, work);
     return end(misfit);
   }
   if (steps.empty()) return points;
