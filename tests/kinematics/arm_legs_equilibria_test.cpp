@@ -108,11 +108,26 @@ TEST(ArmLegsEquilibria, BadStartsAndQuestionsAreRefused) {
   const Status far = status();
   EXPECT_TRUE(far == Status::stalled || far == Status::converged || far == Status::unstable ||
               far == Status::singular || far == Status::left_domain);
+  // Numbers that overflow are no equilibrium, whichever leg has them.
+  start.curvatures = {{{1e200, 0, 0}}, {{0, 0, 0}}, {{0, 0, 0}}};
+  const ArmLegsState beyond = arm_legs_forward_from(robot, start, uneven, {}, {}, work);
+  EXPECT_FALSE(beyond.report.is_solved()) << to_string(beyond.report.status);
   start.platform.p[0] = nan;
   EXPECT_EQ(status(), Status::bad_input);
   const auto refused = arm_legs_equilibria(robot, std::vector<TendonCommand>(3), {}, {}, 5, work);
   ASSERT_EQ(refused.size(), 1U);
   EXPECT_EQ(refused[0].state.report.status, Status::bad_input);
+}
+
+TEST(ArmLegsEquilibria, ARefusedPathLeavesNoneToGoOnFrom) {
+  const ArmLegs robot = tripod(false);
+  ArmLegsWorkspace work(robot);
+  ASSERT_TRUE(arm_legs_forward(robot, uneven, {}, {}, work).report.ok());
+  const std::vector<ArmLegsStep> path(1);  // holds no tendon
+  EXPECT_EQ(arm_legs_track(robot, path, {}, work).back().report.status, Status::bad_input);
+  const ArmLegsLoadPath grown = arm_legs_follow_load(robot, {0, 0, 1, 0, 0, 0}, 1, work);
+  EXPECT_EQ(grown.end, LoadEnd::stalled);
+  EXPECT_EQ(grown.load, 0);
 }
 
 }  // namespace sinew::test::arm_legs_equilibria_test

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/math/vec.hpp"
@@ -169,7 +170,7 @@ struct ArmSensed {
   std::array<double, 6> wrench{};       ///< base axes [N, N m]
   std::array<double, 36> covariance{};  ///< of it; of a force alone the moment's part is 0 [N², N² m, N² m²]
   /// Root mean square of what stays, in standard deviations [1]; not a number where nothing was compared.
-  double misfit = 0;
+  double misfit = not_a_number;
   /// How much better the best known direction of the wrench is known than the worst, moments over the arm's
   /// length [1].
   double condition = 0;

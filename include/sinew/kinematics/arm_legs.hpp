@@ -150,7 +150,7 @@ struct ArmLegsSensed {
   std::array<double, 6> wrench{};       ///< beside weight and load, base axes [N, N m]
   std::array<double, 36> covariance{};  ///< of it; of a force alone the moment's part is 0 [N², N² m, N² m²]
   /// Root mean square of what stays, in standard deviations [1]; not a number where nothing was compared.
-  double misfit = 0;
+  double misfit = not_a_number;
   /// How much better the best known direction of the wrench is known than the worst, moments over the longest
   /// leg [1].
   double condition = 0;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "base/at.hpp"
 #include "kinematics/arm_legs/forward_from.hpp"
@@ -171,7 +172,7 @@ std::vector<ArmLegsEquilibrium> arm_legs_equilibria(const ArmLegs& robot,
   Beginnings beginnings(robot, problem);
   for (int k = 1; k < starts && !work.stop.stop_requested(); ++k)
     equilibria.search_from(beginnings, k % 2 == 0);
-  auto& found = equilibria.found;
+  std::vector<ArmLegsEquilibrium> found = std::move(equilibria.found);
   if (found.empty()) return {ArmLegsEquilibrium{first, {}}};
   std::ranges::stable_sort(
       found, {}, [&](const ArmLegsEquilibrium& one) { return whole_potential(one.state, commands); });

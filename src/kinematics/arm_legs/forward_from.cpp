@@ -90,7 +90,7 @@ const ArmLegsState& arm_legs_forward_from(const ArmLegs& robot, const ArmLegsSta
   group.set_problem(problem.commands, problem.wrench, problem.loads);
   group.take(start);
   refine_by_newton(robot, problem, options, work, iterate_legs(group, false, options, work.stop, 0));
-  if (Report& report = impl.state.report; !report.is_solved() && report.message.empty())
+  if (Report& report = impl.state.report; report.status == Status::stalled && report.message.empty())
     report.message = FixedText<240>("no equilibrium was found near the shape to begin at");
   return impl.state;
 }

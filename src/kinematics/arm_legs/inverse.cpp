@@ -10,8 +10,7 @@ namespace sinew::inline v1 {
 namespace {
 
 /// Equilibria and their Newton's steps of a search, of all its beginnings together [1]: a bound of time, less
-/// than an arm's, since each step is of several legs; targets that are found mostly take ten to twenty
-/// equilibria.
+/// than an arm's, since each step is of several legs.
 constexpr int most_work_of_inverse = 3000;
 
 class PulledLegs final : public PulledBody {

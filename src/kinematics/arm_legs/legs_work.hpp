@@ -22,7 +22,10 @@ struct ArmLegsWorkspace::Impl {
   ArmLegsState state;
 
   /// Whether there is an equilibrium to go on from.
-  bool has_last() const { return level >= 0 && state.report.ok(); }
+  bool has_last() const {
+    return level >= 0 && static_cast<std::size_t>(level) < levels.size() &&
+           levels[static_cast<std::size_t>(level)] && state.report.ok();
+  }
   ArmGroup& group() { return *levels[static_cast<std::size_t>(level)]; }
 };
 
@@ -38,7 +41,7 @@ struct LegsProblem {
 
 /// Of the group, but for the report, `stable`, `resolution` and `reached`.
 void write_legs_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState& state);
-/// The workspace's state is that the question does not fit.
+/// The workspace's state is that the question does not fit: there is none to go on from.
 const ArmLegsState& refuse_question(const Report& misfit, ArmLegsWorkspace& work);
 
 /// The longest leg [m].

@@ -7,8 +7,7 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// Newton's steps of a whole load path [1]: so many that it is the limit of the load, or a stop, that ends
-/// it.
+/// Newton's steps of a whole load path [1]: so many that something else ends it.
 constexpr int most_path_iterations = 100000;
 
 }  // namespace

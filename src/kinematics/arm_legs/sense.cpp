@@ -14,8 +14,8 @@ namespace {
 
 /// Equilibria and their Newton's steps of one search [1]: a bound of time, the same as of tensions.
 constexpr int most_work_of_sensing = 3000;
-/// Times that a search is made again by finer polynomials [1]: there are at most five of them, and the first
-/// is not finer.
+/// Times that a search is made again by finer polynomials [1]: of five at most the first search ends at the
+/// second or a finer one.
 constexpr int most_refinements = 3;
 
 class MeasuredLegs final : public LoadedBody {

@@ -118,9 +118,9 @@ class NormalEquations {
   std::vector<At> state_;
 };
 
-/// Times that the centre's weight is taken back [1]: each leaves about that share of what was left, so that
-/// after these only rounding is.
-constexpr int corrections = 4;
+/// Solves, each of what the ones before left because of the centre's weight [1]: each leaves about that share
+/// of it, so that after these only rounding is.
+constexpr int weighted_solves = 4;
 
 }  // namespace
 
@@ -128,7 +128,7 @@ std::vector<double> bounded_least_squares(const std::vector<double>& A, const st
                                           const std::vector<double>& centre, double most) {
   const std::size_t m = centre.size();
   std::vector<double> asked = b, x;
-  for (int round = 0; round < corrections; ++round) {
+  for (int round = 0; round < weighted_solves; ++round) {
     x = NormalEquations(A, asked, centre, most).solve();
     for (std::size_t r = 0; r < b.size(); ++r) {
       double left = b[r];

@@ -5,8 +5,7 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// Equilibria and their Newton's steps of a search, of all its beginnings together [1]: a bound of time, for
-/// targets that are found mostly take ten to twenty equilibria.
+/// Equilibria and their Newton's steps of a search, of all its beginnings together [1]: a bound of time.
 constexpr int most_work_of_arm = 10000;
 
 class PulledArm final : public PulledBody {

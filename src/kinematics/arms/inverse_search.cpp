@@ -129,8 +129,8 @@ double off_target(const ArmTarget& target, const SE3<double>& tip, double length
 
 namespace {
 
-/// Searches, each by finer polynomials than the one before [1]: it begins so near its end that more are only
-/// asked for where finer polynomials go on moving the tip.
+/// Searches, each by the polynomials that the end of the one before needed [1]: it begins so near its end
+/// that more are only asked for where finer polynomials go on moving the tip.
 constexpr int most_refined_searches = 4;
 /// Equilibria and their Newton's steps of a search that is made again [1]: it has a few steps to go.
 constexpr int most_work_again = 1000;
@@ -138,7 +138,7 @@ constexpr int most_work_again = 1000;
 /// though finer polynomials may move it a little.
 constexpr double far_multiple = 10;
 /// What a tip is off where no equilibrium was found.
-constexpr double nowhere = 1e300;
+constexpr double error_of_none = 1e300;
 
 /// Of a search that ended without an equilibrium.
 Report without_equilibrium(const FoundTensions& found, const TensionSearch& search, int iterations) {
@@ -166,7 +166,7 @@ Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
     const Status status = found.report.status;
     if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
       return found.report;
-    if (!(found.report.residual < nowhere)) return without_equilibrium(found, search, iterations);
+    if (!(found.report.residual < error_of_none)) return without_equilibrium(found, search, iterations);
     searched->bring_back();
     const bool is_near = found.report.residual <= search.precision,
                is_far = found.report.residual > far_multiple * search.precision;
@@ -198,8 +198,7 @@ Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
 
 namespace {
 
-/// Steps from one beginning [1]: tensions that are found mostly take ten to twenty, and a way that takes this
-/// many goes to and fro.
+/// Steps from one beginning [1]: a way that takes this many goes to and fro.
 constexpr int most_tension_steps = 100;
 /// What a step along the target to less tension may be off it, over the length and [rad]: the last steps go
 /// back to it.
@@ -231,7 +230,7 @@ class TensionSteps {
         search_(search),
         body_(body) {}
   FoundTensions run() {
-    best_.report.residual = nowhere;
+    best_.report.residual = error_of_none;
     for (int start = 0;
          start < search_.starts && best_.report.residual > search_.precision && spent_ < search_.most_work;
          ++start) {
@@ -266,8 +265,8 @@ class TensionSteps {
     is_over_ = true;
     return false;
   }
-  /// None, or those of the last equilibrium; then of every tendon in turn, then of pairs of neighbours
-  /// further on.
+  /// None, or those of the last equilibrium; then of about a third of the tendons, others each time and more
+  /// each time.
   std::vector<double> first_tensions(int start, bool from_last) const {
     const std::size_t m = search_.tendons;
     std::vector<double> tensions(m, 0.0);
@@ -328,7 +327,7 @@ class TensionSteps {
     for (std::size_t i = 0; i < next.size(); ++i) next[i] = tensions_[i] + share * (next[i] - tensions_[i]);
     const Report trial = pull(next, true);
     if (trial.status == Status::stopped) return end_with(trial);
-    const double after = trial.is_solved() ? error() : nowhere;
+    const double after = trial.is_solved() ? error() : error_of_none;
     if (!is_better(next, after, longest)) return step_back(longest);
     longest_before_ = longest;
     if (share < 1) radius_ *= wider;

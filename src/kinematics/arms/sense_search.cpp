@@ -28,7 +28,7 @@ constexpr double least_wrench = 1e-6;
 /// Of a step that was taken back the radius of the next [1], and by what a radius grows after one that used
 /// more than half of it [1]: shorter at once, for a step costs an equilibrium, and longer as quickly, for the
 /// first is a guess.
-constexpr double shorter = 0.25, longer = 3;
+constexpr double shorter_radius = 0.25, longer_radius = 3;
 /// Below this ratio of eigenvalues [1] rounding hides the wrench's worst known direction: a slender arm
 /// yields a million times more across than along, so that its squares have 1e-12.
 constexpr double smallest_ratio = 1e-15;
@@ -64,16 +64,16 @@ class WrenchSteps {
       }
       if (!(misfit < before_ * (1 + rounding_of_squares)) && round > 0) {  // a shorter one from where it was
         take(-1);
-        radius_ = shorter * step_size();
+        radius_ = shorter_radius * step_size();
         if (radius_ < least_radius * std::max(wrench_size(), least_wrench)) {  // as near as rounding lets it
           load(from_last, round, spent);
-          return with_covariance();
+          return sensed_.report.is_solved() ? with_covariance() : sensed_;
         }
         step_ = step_within_radius();
         take(1);
         continue;
       }
-      if (round > 0 && step_size() > 0.5 * radius_) radius_ *= longer;
+      if (round > 0 && step_size() > 0.5 * radius_) radius_ *= longer_radius;
       before_ = misfit;
       set_normal_equations(with);
       sensed_.misfit = std::sqrt(misfit / static_cast<double>(with.off.size()));

@@ -7,7 +7,7 @@
 
 #include "base/at.hpp"
 #include "kinematics/arm_legs/group/rod_frames.hpp"
-#include "kinematics/arm_legs/group/worst_of.hpp"
+#include "solve/contraction.hpp"
 #include "strain/sweep.hpp"
 
 namespace sinew::inline v1 {
@@ -86,11 +86,11 @@ void ArmGroup::evaluate(Leg& leg) {
   }
   measure_closure(leg);
   const Vec<double, 6> open = leg.off - (1 - share_) * leg.gap;
-  error = worst_of(error, open.head<3>().norm() / size);
-  error = worst_of(error, open.tail<3>().norm());
+  error = worse(error, open.head<3>().norm() / size);
+  error = worse(error, open.tail<3>().norm());
   double sum = 0;
   for (const double g : work.gradient) sum += g * g;
-  limb_error_ = worst_of(limb_error_, worst_of(error, std::sqrt(sum / model.energy_scale)));
+  limb_error_ = worse(limb_error_, worse(error, std::sqrt(sum / model.energy_scale)));
 }
 
 double ArmGroup::evaluate(bool) {
@@ -104,8 +104,8 @@ double ArmGroup::evaluate(bool) {
     unit = std::max(unit, force_unit(leg));
   }
   keep_in_plane(balance_);
-  const double error = worst_of(limb_error_, balance_.head<3>().norm() / unit);
-  return worst_of(error, balance_.tail<3>().norm() / (unit * radius_));
+  const double error = worse(limb_error_, balance_.head<3>().norm() / unit);
+  return worse(error, balance_.tail<3>().norm() / (unit * radius_));
 }
 
 }  // namespace sinew::inline v1

@@ -12,8 +12,8 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// Parts by whose curvatures a shape is taken over where polynomials do not [1]: as many as the finest
-/// elements of a section.
+/// Parts of a leg by whose curvatures a shape is taken over where polynomials do not [1]: as many as a
+/// section has elements at the finest.
 constexpr int parts_taken_over = 64;
 
 /// Shapes that polynomials do not tell one another: joints in other places.

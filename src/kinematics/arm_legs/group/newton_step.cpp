@@ -8,7 +8,7 @@
 #include "base/at.hpp"
 #include "kinematics/arm_legs/group/regular_lu.hpp"
 #include "kinematics/arm_legs/group/rod_frames.hpp"
-#include "kinematics/arm_legs/group/worst_of.hpp"
+#include "solve/contraction.hpp"
 
 namespace sinew::inline v1 {
 
@@ -77,8 +77,8 @@ bool ArmGroup::plan() {
   for (Leg& leg : legs_) {
     leg.du = answer.segment(next, leg.unknowns());
     next += leg.unknowns();
-    planned_size_ = worst_of(planned_size_, planned_bend(leg));
-    planned_size_ = worst_of(planned_size_, planned_.head<3>().norm() / leg.own->arm.length());
+    planned_size_ = worse(planned_size_, planned_bend(leg));
+    planned_size_ = worse(planned_size_, planned_.head<3>().norm() / leg.own->arm.length());
   }
   return true;
 }
@@ -117,7 +117,7 @@ bool ArmGroup::plan_at_prescribed_pose() {
   for (Leg& leg : legs_) {
     if (!factor_compliance(leg)) return false;
     leg.du = leg.D_inverse * leg.r;
-    planned_size_ = worst_of(planned_size_, planned_bend(leg));
+    planned_size_ = worse(planned_size_, planned_bend(leg));
   }
   return std::isfinite(planned_size_);
 }

@@ -2,7 +2,6 @@
 /// all unknown forces and the platform.
 #include "kinematics/arm_legs/group/arm_group.hpp"
 
-#include "base/at.hpp"
 #include "kinematics/arm_legs/group/regular_lu.hpp"
 
 namespace sinew::inline v1 {

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "base/at.hpp"
-#include "kinematics/arm_legs/group/worst_of.hpp"
+#include "solve/contraction.hpp"
 
 namespace sinew::inline v1 {
 
@@ -55,7 +55,7 @@ double ArmGroup::measure_tendons(Leg& leg) {
     tendon.is_taut = tendon.tension + missing / tendon.unit > 0;
     tendon.place = tendon.is_taut ? leg.taut++ : -1;
     if (tendon.is_taut)
-      error = worst_of(error, std::abs(missing) / size);
+      error = worse(error, std::abs(missing) / size);
     else
       tendon.tension = 0;
   }

@@ -9,9 +9,8 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// Newton's steps, and equilibria on the way, of one that differs little from the one before [1]: a search
-/// that is refused after these tries half its step, which costs less than to follow a way that is this
-/// crooked.
+/// Newton's steps, and equilibria that are tried, on the way to one that differs little from the one before
+/// [1]: beyond, half the step is tried, which costs less than to follow a way that is this crooked.
 constexpr int most_iterations = 60, most_equilibria = 12;
 
 }  // namespace

@@ -119,10 +119,8 @@ class EquilibriumSearch {
     if (status == Status::unstable || status == Status::singular)
       report.message = FixedText<240>("what coarser polynomials found does not hold by finer ones");
     else if (status != Status::converged)
-      report.message =
-          FixedText<240>(is_pose_prescribed_ && status == Status::stalled
-                             ? words_of_pose(robot_, problem_, found_, state.reached)
-                             : words_of_search(status, group_->loads_have_potential(), state.reached));
+      report.message = FixedText<240>(
+          words_of_search(robot_, problem_, found_, group_->loads_have_potential(), state.reached));
     else if (begins_anew_)
       report.message = FixedText<240>(
           "from the last equilibrium none that holds was found on the way here; this is what the rest grows "

@@ -7,8 +7,8 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// By how much a leg that stretches, and one that does not, may be shorter than the way it has to span [1]:
-/// more strain than that nothing elastic bears, and rounding.
+/// By how much a leg that stretches, and one that does not, may be shorter than the way it has to span [1]: a
+/// guess for backbones as stiff as they mostly are, for a leg that was not found at the pose; and rounding.
 constexpr double largest_stretch = 1e-2, rounding_of_length = 1e-9;
 
 /// A leg that the pose is too far from, by more than it may stretch, in words; or empty.
@@ -27,29 +27,23 @@ std::string out_of_reach(const ArmLegs& robot, const ArmGroup::Frame& pose) {
   return {};
 }
 
-}  // namespace
-
-std::string words_of_search(Status status, bool has_potential, double reached) {
+/// Why a free platform has no equilibrium under all that acts.
+std::string words_of_free(bool has_potential, double reached) {
+  if (reached == 1)
+    return "what coarse polynomials found is not found again by finer ones: a leg is bent too sharply for "
+           "them";
   const double percent = 100 * reached;
-  switch (status) {
-    case Status::stalled:
-      if (!has_potential)
-        return fmt::format(
-            "inputs and loads led to an equilibrium that is known to hold up to {:.2f} % of them, and "
-            "beyond to none: some of the loads have no potential, and what is beyond may hold or not",
-            percent);
-      return fmt::format(
-          "inputs and loads led to an equilibrium that holds up to {:.2f} % of them, and beyond to none",
-          percent);
-    case Status::iteration_limit:
-      return fmt::format("the bound on iterations was met at {:.2f} % of inputs and loads", percent);
-    case Status::stopped:
-      return fmt::format("stopped at {:.2f} % of inputs and loads", percent);
-    default:
-      return {};
-  }
+  if (!has_potential)
+    return fmt::format(
+        "inputs and loads led to an equilibrium that is known to hold up to {:.2f} % of them, and "
+        "beyond to none: some of the loads have no potential, and what is beyond may hold or not",
+        percent);
+  return fmt::format(
+      "inputs and loads led to an equilibrium that holds up to {:.2f} % of them, and beyond to none",
+      percent);
 }
 
+/// Why a platform is not kept at the prescribed pose, and the way out.
 std::string words_of_pose(const ArmLegs& robot, const LegsProblem& problem, const LegsFound& found,
                           double reached) {
   const std::string far = out_of_reach(robot, *problem.prescribed_pose);
@@ -65,6 +59,26 @@ std::string words_of_pose(const ArmLegs& robot, const LegsProblem& problem, cons
           : "no equilibrium was found: lead the platform there by track, or give less load";
   return fmt::format("legs held the platform up to {:.2f} % of the way to the pose, and beyond {}",
                      100 * reached, why);
+}
+
+}  // namespace
+
+std::string words_of_search(const ArmLegs& robot, const LegsProblem& problem, const LegsFound& found,
+                            bool has_potential, double reached) {
+  const bool has_pose = problem.prescribed_pose.has_value();
+  const char* of_what = has_pose ? "of the way to the pose" : "of inputs and loads";
+  switch (found.status) {
+    case Status::stalled:
+      return has_pose ? words_of_pose(robot, problem, found, reached) : words_of_free(has_potential, reached);
+    case Status::iteration_limit:
+      return fmt::format("the bound on iterations was met at {:.2f} % {}", 100 * reached, of_what);
+    case Status::stopped:
+      return fmt::format("stopped at {:.2f} % {}", 100 * reached, of_what);
+    case Status::left_domain:
+      return "numbers are beyond what can be computed: a leg is bent too sharply, or loads are too large";
+    default:
+      return {};
+  }
 }
 
 }  // namespace sinew::inline v1

@@ -8,10 +8,10 @@
 
 namespace sinew::inline v1 {
 
-/// Of a free platform. @param has_potential what acts has one; @param reached share of inputs and loads
-std::string words_of_search(Status status, bool has_potential, double reached);
-/// Why a platform is not kept at the prescribed pose, and the way out. @param reached share of the way to it
-std::string words_of_pose(const ArmLegs& robot, const LegsProblem& problem, const LegsFound& found,
-                          double reached);
+/// Of a free platform, or of one at a prescribed pose.
+/// @param has_potential what acts has one
+/// @param reached share of inputs and loads, or of the way to the pose [1]
+std::string words_of_search(const ArmLegs& robot, const LegsProblem& problem, const LegsFound& found,
+                            bool has_potential, double reached);
 
 }  // namespace sinew::inline v1
