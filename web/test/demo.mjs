@@ -173,16 +173,16 @@ async function secondPage(browser, url, page) {
   await bar(second.page, /VIEW ONLY/).waitFor();
   assert.match(await bar(second.page, /VIEW ONLY/).innerText(), /another page controls since \d\d:\d\d/);
   await shot(second.page, 'demo-second');
-  const button = await bar(page, /Straighten/).boundingBox();
-  for (let isMoving = false; !isMoving; isMoving = (await frame(page)).activity === 'straighten') {
+  const server = await watch(url), straightens = ({activity}) => activity === 'straighten';
+  for (let isMoving = false; !isMoving; isMoving = straightens(await frame(page))) {
+    await page.mouse.up();
     await armed(page);
-    await page.mouse.move(button.x + 20, button.y + 20);
-    await page.mouse.down();
-    await told(page, ({activity, state}) => activity === 'straighten' || state !== 'armed');
-    if ((await frame(page)).state !== 'armed') await page.mouse.up();
+    await pressUntil(page, bar(page, /Straighten/), (now) => straightens(now) || now.state !== 'armed');
   }
+  const isHeld = server.next(({activity}) => activity === 'holding');
   await bar(second.page, /HOLD/).click();
-  await told(page, ({activity}) => activity === 'holding');
+  await isHeld;
+  server.close();
   await pause(400);
   const held = await frame(page);  // on a busy machine the page may have fallen silent meanwhile, which ends the hold
   assert.ok(held.activity === 'holding' || (held.activity === 'rest' && held.state !== 'armed'), `the button that is still held moves nothing: ${held.activity}, ${held.state}`);
