@@ -45,10 +45,12 @@ const bar = (page, name) => page.locator('#op-bar').getByRole('button', {name});
 
 const centre = ({x, y, width, height}) => [x + width / 2, y + height / 2];
 
-/** Presses a button until a frame is so, and keeps it down. A machine that stalls for 0.3 s stops the motion: then it is pressed anew, as by an operator. */
-async function pressUntil(page, button, is, {longest = 60e3, meanwhile} = {}) {
+/**
+ * Presses a button until a frame is so, and keeps it down. A machine that stalls for 0.3 s stops the motion, for longer disarms, and ends the lease at last: then all is got ready and the button is pressed anew, as by an operator.
+ * @param ready makes it so that the button may be pressed; it does nothing where that is so
+ */
+async function pressUntil(page, button, is, {ready = armed, longest = 60e3, meanwhile} = {}) {
   const end = performance.now() + longest;
-  await page.mouse.move(...centre(await button.boundingBox()));
   for (let isDown = false; ;) {
     const now = await frame(page);
     if (is(now)) break;
@@ -60,6 +62,8 @@ async function pressUntil(page, button, is, {longest = 60e3, meanwhile} = {}) {
       isDown = false;
     }
     if (!isDown) {
+      await ready(page);
+      await page.mouse.move(...centre(await button.boundingBox()));
       await page.mouse.down();
       await pause(350);
       isDown = true;
@@ -81,13 +85,26 @@ async function look(browser, url, options) {
   return opened;
 }
 
+const stalls = /answer|let go|no word|silent|without motion/;
+
+/** In control, with the dialog of arming: where a stall has ended the lease, it is taken anew. */
+async function readyToHome(page) {
+  const {state, why} = await frame(page);
+  if (state === 'view_only') {
+    console.log(`  control ended: ${why}`);
+    assert.match(why, stalls);
+    await bar(page, /Take control/).click();
+  }
+  if (!await page.locator('.arming-dialog').isVisible()) await bar(page, /Arm…/).click();
+}
+
 async function home(page, folder) {
   await bar(page, /Arm…/).click();
   await page.locator('.arming-dialog', {hasText: 'hold Home until all tendons are done'}).waitFor();
   assert.ok(await page.getByRole('button', {name: 'Hold 1 s to arm'}).isDisabled());
   const button = page.locator('.arming-dialog .home'), begin = performance.now();
   let isSeen = false;
-  await holdUntil(page, button, ({homing}) => homing?.done >= 7, {meanwhile: async ({homing}) => {
+  await holdUntil(page, button, ({homing}) => homing?.done >= 7, {ready: readyToHome, meanwhile: async ({homing}) => {
     if (isSeen || !(homing?.done >= 4)) return;
     isSeen = true;
     await shot(page, 'demo-homing');
@@ -95,7 +112,7 @@ async function home(page, folder) {
   await pause(300);
   assert.ok((await frame(page)).homing.done >= 7, 'what is ticked stays so when the button is released');
   assert.ok(await page.locator('.arming-dialog .ticks .done').count() >= 7);
-  await holdUntil(page, button, ({homed}) => homed);
+  await holdUntil(page, button, ({homed}) => homed, {ready: readyToHome});
   console.log(`  homed in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
   await page.locator('.arming-dialog', {hasText: /Homed \d{4}-\d\d-\d\d .* at 5\.0 N/}).waitFor();
   await told(page, allExact);
@@ -122,9 +139,7 @@ async function aim(page, section, x, y) {
 
 const isThere = ({sections}) => sections.every(({target, measured}) => Math.hypot(target[0] - measured[0], target[1] - measured[1]) < 2e-3);
 
-const stalls = /answer|let go|no word|silent/;
-
-/** The same of a motion. A machine that stalls for longer disarms, and says so; more than a few times it would be wrong. */
+/** Armed, anew where a stall has disarmed, which it says. */
 async function armed(page) {
   const {state, why} = await frame(page);
   if (state === 'armed') return;
@@ -135,15 +150,6 @@ async function armed(page) {
   await arm(page);
 }
 
-async function moveUntil(page, name, is) {
-  for (let left = 5; ; --left) {
-    assert.ok(left > 0, 'disarmed again and again');
-    await armed(page);
-    await holdUntil(page, bar(page, name), (now) => is(now) || now.state !== 'armed');
-    if (is(await frame(page))) return;
-  }
-}
-
 async function moves(page) {
   for (let i = 0; i < 6; ++i) await page.keyboard.press('+');
   await told(page, ({speed}) => speed > 4.5e-3);
@@ -151,7 +157,7 @@ async function moves(page) {
   await aim(page, 3, 0.4, 0.6);
   await told(page, (now) => !isThere(now) && now.sections[1].target[0] > 0.05 && now.sections[3].target[0] < -0.05);
   await shot(page, 'demo-target');
-  await moveUntil(page, /MOVE/, isThere);
+  await holdUntil(page, bar(page, /MOVE/), isThere);
   await told(page, ({activity}) => activity === 'rest');
   await pause(700);  // what is shown is cleared after half a second
   assert.deepEqual(await words(page), Array(5).fill('EXACT'), 'taut at moderate bends');
@@ -160,11 +166,11 @@ async function moves(page) {
 
 async function insertsAndRetracts(page) {
   assert.notEqual(await bar(page, /Straighten/).getAttribute('aria-disabled'), 'true');
-  await moveUntil(page, /Advance/, ({insertion}) => insertion > 6e-3);
+  await holdUntil(page, bar(page, /Advance/), ({insertion}) => insertion > 6e-3);
   await page.locator('#op-bar').getByText(/locked: \d+ mm in/).waitFor();
   assert.equal(await bar(page, /Straighten/).getAttribute('aria-disabled'), 'true');
   await shot(page, 'demo-inserted');
-  await moveUntil(page, /Retract/, ({insertion}) => insertion < 2e-4);
+  await holdUntil(page, bar(page, /Retract/), ({insertion}) => insertion < 2e-4);
   await told(page, allExact);
 }
 
@@ -173,12 +179,8 @@ async function secondPage(browser, url, page) {
   await bar(second.page, /VIEW ONLY/).waitFor();
   assert.match(await bar(second.page, /VIEW ONLY/).innerText(), /another page controls since \d\d:\d\d/);
   await shot(second.page, 'demo-second');
-  const server = await watch(url), straightens = ({activity}) => activity === 'straighten';
-  for (let isMoving = false; !isMoving; isMoving = straightens(await frame(page))) {
-    await page.mouse.up();
-    await armed(page);
-    await pressUntil(page, bar(page, /Straighten/), (now) => straightens(now) || now.state !== 'armed');
-  }
+  const server = await watch(url);
+  await pressUntil(page, bar(page, /Straighten/), ({activity}) => activity === 'straighten');
   const isHeld = server.next(({activity}) => activity === 'holding');
   await bar(second.page, /HOLD/).click();
   await isHeld;
@@ -189,7 +191,7 @@ async function secondPage(browser, url, page) {
   await page.mouse.up();
   await pause(250);
   await second.done();
-  await moveUntil(page, /Straighten/, ({sections}) => sections.every(({measured: [x, y]}) => Math.hypot(x, y) < 2e-3));
+  await holdUntil(page, bar(page, /Straighten/), ({sections}) => sections.every(({measured: [x, y]}) => Math.hypot(x, y) < 2e-3));
   await told(page, allExact);
 }
 
