@@ -11,7 +11,7 @@ namespace {
 
 /// @param error that the finest polynomials have [m]
 LegsFound refine_levels(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
-                        ArmLegsWorkspace& work, LegsFound found, double& error) {
+                        ArmLegsWorkspace& work, LegsFound found, NewtonBudget& budget, double& error) {
   ArmLegsWorkspace::Impl& impl = work.impl();
   const auto bases = bases_of(options);
   impl.level = 0;
@@ -22,9 +22,7 @@ LegsFound refine_levels(const ArmLegs& robot, const LegsProblem& problem, const 
     fine.set_problem(problem.commands, problem.wrench, problem.loads);
     fine.carry_over_from(coarse);
     fine.set_share(1);
-    const int spent = found.iterations;
-    found = iterate_legs(fine, false, options, work.stop, 0);
-    found.iterations += spent;
+    found = iterate_legs(fine, false, budget);
     impl.level = static_cast<int>(next);
     error = error_left(moved_by(coarse, fine, false), bases[next - 1], bases[next]);
     if (error <= options.accuracy * legs_size(robot)) break;
@@ -55,13 +53,13 @@ bool is_shape(const std::vector<std::array<double, 3>>& leg) {
 }  // namespace
 
 void refine_by_newton(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
-                      ArmLegsWorkspace& work, LegsFound found) {
+                      ArmLegsWorkspace& work, LegsFound found, NewtonBudget& budget) {
   double error = 0;
-  found = refine_levels(robot, problem, options, work, found, error);
+  found = refine_levels(robot, problem, options, work, found, budget, error);
   ArmLegsState& state = work.impl().state;
   ArmGroup& group = work.impl().group();
   state = {};
-  state.report = {found.status, found.iterations, found.residual, {}};
+  state.report = {found.status, budget.iterations, found.residual, {}};
   state.resolution = error;
   state.reached = found.status == Status::converged ? 1 : 0;
   if (found.status == Status::converged) {
@@ -89,9 +87,14 @@ const ArmLegsState& arm_legs_forward_from(const ArmLegs& robot, const ArmLegsSta
   ArmGroup& group = *impl.levels[0];
   group.set_problem(problem.commands, problem.wrench, problem.loads);
   group.take(start);
-  refine_by_newton(robot, problem, options, work, iterate_legs(group, false, options, work.stop, 0));
-  if (Report& report = impl.state.report; report.status == Status::stalled && report.message.empty())
-    report.message = FixedText<240>("no equilibrium was found near the shape to begin at");
+  NewtonBudget budget(options, work.stop);
+  refine_by_newton(robot, problem, options, work, iterate_legs(group, false, budget), budget);
+  if (Report& report = impl.state.report; report.message.empty()) {
+    if (report.status == Status::stalled)
+      report.message = FixedText<240>("no equilibrium was found near the shape to begin at");
+    else if (report.status == Status::iteration_limit)
+      report.message = FixedText<240>("the bound on iterations was met");
+  }
   return impl.state;
 }
 

@@ -22,6 +22,7 @@ class EquilibriumSearch {
         work_(work),
         impl_(work.impl()),
         end_(end),
+        budget_(options, work.stop),
         bases_(bases_of(options)),
         is_pose_prescribed_(problem.prescribed_pose.has_value()),
         goes_on_(options.from_last && levels_are_for(options, impl_) && impl_.has_last()) {}
@@ -71,22 +72,19 @@ class EquilibriumSearch {
       group_->set_problem(commands, last.wrench(), last.loads());
       group_->set_share(1);
     }
-    found_ = walk_legs(*group_, problem_, options_, work_.stop, impl_.state.reached);
-    begins_anew_ =
-        end_ != LegsEnd::on_the_way && found_.status != Status::converged && found_.status != Status::stopped;
+    found_ = walk_legs(*group_, problem_, budget_, impl_.state.reached);
+    begins_anew_ = end_ != LegsEnd::on_the_way && found_.status != Status::converged &&
+                   found_.status != Status::stopped && found_.status != Status::iteration_limit;
   }
   void begin_anew() {
     double& reached = impl_.state.reached;
-    int spent = found_.iterations;
     level_ = 0;
     group_ = &at_rest(0);
-    found_ = begin_at_rest(*group_, problem_, options_, work_.stop, reached);
+    found_ = begin_at_rest(*group_, problem_, budget_, reached);
     if (is_pose_prescribed_ && found_.status == Status::stalled && reached == 0) {
-      spent += found_.iterations;
       group_ = &at_rest(0);
-      found_ = begin_unloaded(*group_, problem_, options_, work_.stop, reached);
+      found_ = begin_unloaded(*group_, problem_, budget_, reached);
     }
-    found_.iterations += spent;
   }
   /// By finer polynomials, until these move the platform less than is asked.
   void refine() {
@@ -98,9 +96,7 @@ class EquilibriumSearch {
       group_->carry_over_from(coarse);
       group_->set_share(1);
       impl_.level = static_cast<int>(next);
-      const int spent = found_.iterations;
-      found_ = iterate_legs(*group_, is_pose_prescribed_, options_, work_.stop, spent);
-      found_.iterations += spent;
+      found_ = iterate_legs(*group_, is_pose_prescribed_, budget_);
       if (found_.status == Status::converged && !is_stable(*group_, is_pose_prescribed_))
         found_.status = Status::unstable;
       if (found_.status != Status::converged) return;  // what the coarser one found is none of the finer
@@ -114,7 +110,7 @@ class EquilibriumSearch {
     Report& report = state.report;
     const Status status = found_.status;
     report.status = status;
-    report.iterations = found_.iterations;
+    report.iterations = budget_.iterations;
     report.residual = found_.residual;
     if (status == Status::unstable || status == Status::singular)
       report.message = FixedText<240>("what coarser polynomials found does not hold by finer ones");
@@ -144,6 +140,7 @@ class EquilibriumSearch {
   ArmLegsWorkspace& work_;
   ArmLegsWorkspace::Impl& impl_;
   LegsEnd end_;
+  NewtonBudget budget_;
   std::vector<ArmBasis> bases_;
   bool is_pose_prescribed_, goes_on_;
   std::unique_ptr<ArmGroup> parted_;  ///< the last equilibrium's, where loads act at other places
