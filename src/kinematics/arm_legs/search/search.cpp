@@ -32,7 +32,10 @@ class EquilibriumSearch {
     if (goes_on_) go_on_from_last();
     if (!goes_on_ || begins_anew_) begin_anew();
     impl_.level = static_cast<int>(level_);
-    if (end_ != LegsEnd::coarse) refine();
+    if (end_ != LegsEnd::coarse)
+      found_ = refine_levels(robot_, problem_, options_, work_, {true, goes_on_ && !begins_anew_}, budget_,
+                             found_);
+    group_ = &impl_.group();
     write_report();
     write_stability();
     write_legs_state(robot_, *group_, impl_.state);
@@ -50,12 +53,11 @@ class EquilibriumSearch {
       prepare_levels(options_, together(breaks, breaks_for(robot_, parted_->loads())), work_);
     }
   }
-  void put(ArmGroup& group) const { group.set_problem(problem_.commands, problem_.wrench, problem_.loads); }
-  /// A group at rest; made anew, since its shapes are those at rest only then.
-  ArmGroup& at_rest(std::size_t level) {
-    impl_.levels[level] = std::make_unique<ArmGroup>(robot_, bases_[level], impl_.breaks);
-    put(*impl_.levels[level]);
-    return *impl_.levels[level];
+  /// The coarsest group at rest; made anew, since its shapes are those at rest only then.
+  void put_at_rest() {
+    impl_.levels[0] = std::make_unique<ArmGroup>(robot_, bases_[0], impl_.breaks);
+    group_ = impl_.levels[0].get();
+    group_->set_problem(problem_.commands, problem_.wrench, problem_.loads);
   }
   void go_on_from_last() {
     // One level coarser: the next one then says how far both are off.
@@ -79,30 +81,11 @@ class EquilibriumSearch {
   void begin_anew() {
     double& reached = impl_.state.reached;
     level_ = 0;
-    group_ = &at_rest(0);
+    put_at_rest();
     found_ = begin_at_rest(*group_, problem_, budget_, reached);
     if (is_pose_prescribed_ && found_.status == Status::stalled && reached == 0) {
-      group_ = &at_rest(0);
+      put_at_rest();
       found_ = begin_unloaded(*group_, problem_, budget_, reached);
-    }
-  }
-  /// By finer polynomials, until these move the platform less than is asked.
-  void refine() {
-    for (std::size_t next = level_ + 1; found_.status == Status::converged && next < bases_.size(); ++next) {
-      const bool is_there = goes_on_ && !begins_anew_ && impl_.levels[next];
-      ArmGroup& coarse = *group_;
-      group_ = is_there ? impl_.levels[next].get() : &at_rest(next);
-      if (is_there) put(*group_);
-      group_->carry_over_from(coarse);
-      group_->set_share(1);
-      impl_.level = static_cast<int>(next);
-      found_ = iterate_legs(*group_, is_pose_prescribed_, budget_);
-      if (found_.status == Status::converged && !is_stable(*group_, is_pose_prescribed_))
-        found_.status = Status::unstable;
-      if (found_.status != Status::converged) return;  // what the coarser one found is none of the finer
-      impl_.state.resolution =
-          error_left(moved_by(coarse, *group_, is_pose_prescribed_), bases_[next - 1], bases_[next]);
-      if (impl_.state.resolution <= wanted()) return;
     }
   }
   void write_report() {
