@@ -9,8 +9,8 @@
 #include "kinematics/arm_legs/legs_work.hpp"
 #include "kinematics/arm_legs/search/continuation.hpp"
 #include "kinematics/arm_legs/search/resolution.hpp"
-#include "kinematics/arms/inverse_search.hpp"
 #include "kinematics/arms/sense_search.hpp"
+#include "kinematics/arms/tensions/tension_search.hpp"
 #include "kinematics/arms/whole_potential.hpp"
 
 namespace sinew::inline v1 {

@@ -1,4 +1,4 @@
-#include "kinematics/arms/bounded_least_squares.hpp"
+#include "kinematics/arms/tensions/bounded_least_squares.hpp"
 
 #include <algorithm>
 #include <cmath>
