@@ -1,10 +1,16 @@
-/// Searches for equilibria of platforms on arms: the bound on Newton's steps is of a whole search.
+/// Searches for equilibria of platforms on arms: the bound on Newton's steps is of a whole search, and a path
+/// that passes no fold leads back to where it began.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <random>
 #include <vector>
 
 #include "tripods.hpp"
+#include "uniform.hpp"
 
 namespace sinew::test::arm_legs_search_test {
 
@@ -109,6 +115,67 @@ TEST(ArmLegsIterations, AreBoundedOfEveryEquilibriumAndPointOfAPath) {
     const auto points = arm_legs_track(robot, steps, {.arm = options}, work);
     for (const ArmLegsState& point : points) EXPECT_LE(point.report.iterations, most);
     EXPECT_TRUE(points.back().report.ok() || points.back().report.status == Status::iteration_limit);
+  }
+}
+
+ArmLegsLoad any_load(std::mt19937& random) {
+  ArmLegsLoad load;
+  for (std::size_t i = 0; i < 6; ++i) load.wrench[i] = uniform(random, -1, 1) * (i < 3 ? 0.3 : 0.01);
+  for (double& x : load.following) x = uniform(random, -0.005, 0.005);
+  for (double& x : load.along) x = uniform(random, -0.5, 0.5);
+  return load;
+}
+double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = a.size() == b.size() ? 0 : 1;
+  for (std::size_t i = 0; most < 1 && i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
+/// Every point of the way back is the one of the way there. A fold would end the path, and none does.
+TEST(ArmLegsPath, LeadsBackByTheSamePoints) {
+  constexpr int parts = 6;
+  std::mt19937 random(21);
+  for (int k = 0; k < 6; ++k) {
+    const ArmLegs robot = tripod(k % 2 == 0);
+    ArmLegsWorkspace work(robot);
+    const auto first = k < 3 ? mixed() : std::vector<TendonCommand>(18);
+    std::vector<ArmLegsStep> steps(3);
+    steps[0] = {.commands = first};
+    steps[1] = {.commands = k < 3 ? first : uneven, .load = any_load(random), .divisions = parts};
+    steps[2] = {.commands = first, .divisions = parts};
+    const ArmOptions sharp{.accuracy = 0, .tolerance = 1e-12};
+    const auto points = arm_legs_track(robot, steps, {.arm = sharp}, work);
+    ASSERT_EQ(points.size(), 1U + 2 * parts) << points.back().report.message.view();
+    EXPECT_GT(distance(points[0].platform, points[parts].platform), 1e-3) << k;
+    for (std::size_t i = 0; i < parts; ++i) {
+      const ArmLegsState &there = points[i], &back = points[2 * parts - i];
+      EXPECT_TRUE(there.stable && back.stable);
+      EXPECT_LT(distance(there.platform, back.platform), 1e-9) << k << ' ' << i;
+      EXPECT_LT(farthest(there.tensions, back.tensions), 1e-7) << k << ' ' << i;
+      EXPECT_LT(farthest(there.changes, back.changes), 1e-9) << k << ' ' << i;
+    }
+  }
+}
+
+/// To nearly where a growing load gives way, and from there back without it.
+TEST(ArmLegsPath, LeadsBackFromShortOfAFold) {
+  for (const bool is_clamped : {false, true}) {
+    const ArmLegs robot = tripod(is_clamped);
+    ArmLegsWorkspace work(robot);
+    const auto first = [&] { return arm_legs_forward(robot, uneven, {}, {}, work); };
+    const std::array<double, 6> down{0.1, 0.05, -1, 0, 0, 0};
+    const ArmLegsState begun = first();
+    const ArmLegsLoadPath whole = arm_legs_follow_load(robot, down, 1000, work);
+    ASSERT_TRUE(whole.end == LoadEnd::fold || whole.end == LoadEnd::bifurcation);
+    first();
+    const ArmLegsLoadPath most = arm_legs_follow_load(robot, down, 0.9 * whole.load, work);
+    ASSERT_EQ(most.end, LoadEnd::limit);
+    EXPECT_GT(distance(begun.platform, most.state.platform), 0.01);
+    const ArmLegsState back = arm_legs_forward(robot, uneven, {}, {.from_last = true}, work);
+    ASSERT_TRUE(back.report.ok()) << back.report.message.view();
+    EXPECT_TRUE(back.report.message.empty());
+    EXPECT_LT(distance(begun.platform, back.platform), 2e-6);
+    EXPECT_LT(farthest(begun.changes, back.changes), 2e-6);
   }
 }
 
