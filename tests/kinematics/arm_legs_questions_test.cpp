@@ -94,11 +94,12 @@ TEST(ArmLegsWarm, WhereTheWayGivesWayTheRestIsTakenAndThatIsSaid) {
   ArmOptions warm;
   warm.from_last = true;
   // bent by forces aside, and pressed: from there to one that bends it the other way there is none between
-  const ArmLegsLoad left{.wrench = {0.2, 0, -1.0, 0, 0, 0}}, right{.wrench = {-0.2, 0, -1.0, 0, 0, 0}};
+  const ArmLegsLoad left{.wrench = {0.2, 0, -2.0, 0, 0, 0}}, right{.wrench = {-0.2, 0, -2.0, 0, 0, 0}};
   ASSERT_TRUE(arm_legs_forward(robot, loose, left, {}, work).report.ok());
   const ArmLegsState there = arm_legs_forward(robot, loose, right, warm, work);
   const ArmLegsState cold = arm_legs_forward(robot, loose, right, {}, fresh);
   ASSERT_TRUE(there.report.ok() && cold.report.ok()) << there.report.message.view();
+  EXPECT_FALSE(there.report.message.empty());
   EXPECT_LT(distance(there.platform, cold.platform), 1e-6);
   // nothing to go on from: as without
   ArmLegsWorkspace empty(robot);

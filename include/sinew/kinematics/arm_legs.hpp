@@ -55,6 +55,8 @@ struct ArmLegsState {
 /// `unsupported`: what is not built for legs, as a balance that is not by energy.
 /// `stalled`: up to `reached` of inputs and loads there was an equilibrium that holds, and beyond none was
 /// found: it may have given way. Under loads without a potential it may be that beyond none is known to hold.
+/// `iteration_limit`: as many of Newton's steps as `options.max_iterations` were taken, all stages of the
+/// search together, and `reached` tells how far they led.
 /// @param commands of every tendon, those of leg 0 first, in it those of the first section first
 SINEW_API const ArmLegsState& arm_legs_forward(const ArmLegs& robot, std::span<const TendonCommand> commands,
                                                const ArmLegsLoad& load, const ArmOptions& options,

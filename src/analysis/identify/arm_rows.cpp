@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sinew/math/entire.hpp"
+#include "strain/rod_frames.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -19,7 +20,6 @@ using Turn = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using identification::at;
 Vector of(const strain::Three& x) { return {x[0], x[1], x[2]}; }
 Vector of(const double* x) { return {x[0], x[1], x[2]}; }
-Turn turn_of(const RodFrame& frame) { return Eigen::Map<const Turn>(frame.R); }
 
 Eigen::Matrix3d skew(const Vector& v) {
   Eigen::Matrix3d m;

@@ -9,8 +9,8 @@
 #include "kinematics/arm_legs/legs_work.hpp"
 #include "kinematics/arm_legs/search/continuation.hpp"
 #include "kinematics/arm_legs/search/resolution.hpp"
-#include "kinematics/arms/inverse_search.hpp"
 #include "kinematics/arms/sense_search.hpp"
+#include "kinematics/arms/tensions/tension_search.hpp"
 #include "kinematics/arms/whole_potential.hpp"
 
 namespace sinew::inline v1 {
@@ -128,24 +128,25 @@ class Equilibria {
     double reached = 0;
     ArmOptions some = options_;
     some.max_iterations = std::min(some.max_iterations, most_steps_of_beginning);
-    const LegsFound there = grow_legs(group, some, work_.stop, reached);
+    NewtonBudget there(some, work_.stop), at_once(some, work_.stop), evenly(some, work_.stop);
+    const bool has_grown = grow_legs(group, there, reached).status == Status::converged;
     const LimbState state = group.state();
     group.set_problem(problem_.commands, problem_.wrench, problem_.loads);
     group.set_share(1);
-    refine_and_add(iterate_legs(group, false, some, work_.stop, 0));
-    if (there.status != Status::converged) return;
+    refine_and_add(iterate_legs(group, false, at_once), at_once);
+    if (!has_grown) return;
     group.set_problem(disturbed.commands, disturbed.wrench, disturbed.loads);
     group.restore(state);
     group.evaluate();
-    refine_and_add(walk_legs(group, problem_, some, work_.stop, reached));
+    refine_and_add(walk_legs(group, problem_, evenly, reached), evenly);
   }
 
   std::vector<ArmLegsEquilibrium> found;
 
  private:
-  void refine_and_add(const LegsFound& coarse) {
+  void refine_and_add(const LegsFound& coarse, NewtonBudget& budget) {
     if (coarse.status != Status::converged) return;
-    refine_by_newton(robot_, problem_, options_, work_, coarse);
+    refine_by_newton(robot_, problem_, options_, work_, coarse, budget);
     add();
   }
 

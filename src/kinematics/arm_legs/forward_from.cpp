@@ -9,29 +9,6 @@
 namespace sinew::inline v1 {
 namespace {
 
-/// @param error that the finest polynomials have [m]
-LegsFound refine_levels(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
-                        ArmLegsWorkspace& work, LegsFound found, double& error) {
-  ArmLegsWorkspace::Impl& impl = work.impl();
-  const auto bases = bases_of(options);
-  impl.level = 0;
-  for (std::size_t next = 1; found.status == Status::converged && next < bases.size(); ++next) {
-    ArmGroup& coarse = *impl.levels[next - 1];
-    impl.levels[next] = std::make_unique<ArmGroup>(robot, bases[next], impl.breaks);
-    ArmGroup& fine = *impl.levels[next];
-    fine.set_problem(problem.commands, problem.wrench, problem.loads);
-    fine.carry_over_from(coarse);
-    fine.set_share(1);
-    const int spent = found.iterations;
-    found = iterate_legs(fine, false, options, work.stop, 0);
-    found.iterations += spent;
-    impl.level = static_cast<int>(next);
-    error = error_left(moved_by(coarse, fine, false), bases[next - 1], bases[next]);
-    if (error <= options.accuracy * legs_size(robot)) break;
-  }
-  return found;
-}
-
 void write_stability(ArmGroup& group, ArmLegsState& state) {
   if (!group.clamps_are_aligned()) {
     state.report.status = Status::stalled;
@@ -55,18 +32,18 @@ bool is_shape(const std::vector<std::array<double, 3>>& leg) {
 }  // namespace
 
 void refine_by_newton(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
-                      ArmLegsWorkspace& work, LegsFound found) {
-  double error = 0;
-  found = refine_levels(robot, problem, options, work, found, error);
-  ArmLegsState& state = work.impl().state;
-  ArmGroup& group = work.impl().group();
+                      ArmLegsWorkspace& work, LegsFound found, NewtonBudget& budget) {
+  ArmLegsWorkspace::Impl& impl = work.impl();
+  ArmLegsState& state = impl.state;
   state = {};
-  state.report = {found.status, found.iterations, found.residual, {}};
-  state.resolution = error;
+  impl.level = 0;
+  found = refine_levels(robot, problem, options, work, {false, false}, budget, found);
+  ArmGroup& group = impl.group();
+  state.report = {found.status, budget.iterations, found.residual, {}};
   state.reached = found.status == Status::converged ? 1 : 0;
   if (found.status == Status::converged) {
     write_stability(group, state);
-    report_coarse(error, options.accuracy * legs_size(robot), state.report);
+    report_coarse(state.resolution, options.accuracy * legs_size(robot), state.report);
   }
   write_legs_state(robot, group, state);
 }
@@ -89,9 +66,14 @@ const ArmLegsState& arm_legs_forward_from(const ArmLegs& robot, const ArmLegsSta
   ArmGroup& group = *impl.levels[0];
   group.set_problem(problem.commands, problem.wrench, problem.loads);
   group.take(start);
-  refine_by_newton(robot, problem, options, work, iterate_legs(group, false, options, work.stop, 0));
-  if (Report& report = impl.state.report; report.status == Status::stalled && report.message.empty())
-    report.message = FixedText<240>("no equilibrium was found near the shape to begin at");
+  NewtonBudget budget(options, work.stop);
+  refine_by_newton(robot, problem, options, work, iterate_legs(group, false, budget), budget);
+  if (Report& report = impl.state.report; report.message.empty()) {
+    if (report.status == Status::stalled)
+      report.message = FixedText<240>("no equilibrium was found near the shape to begin at");
+    else if (report.status == Status::iteration_limit)
+      report.message = FixedText<240>("the bound on iterations was met");
+  }
   return impl.state;
 }
 

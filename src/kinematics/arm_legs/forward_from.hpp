@@ -7,8 +7,9 @@
 namespace sinew::inline v1 {
 
 /// From the coarsest group's equilibrium to finer polynomials; the workspace's state is of the finest that
-/// was found, or says why none was. @param found how the coarsest one's search ended
+/// was found, or says why none was. @param found how the coarsest one's search ended; @param budget of that
+/// search
 void refine_by_newton(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
-                      ArmLegsWorkspace& work, LegsFound found);
+                      ArmLegsWorkspace& work, LegsFound found, NewtonBudget& budget);
 
 }  // namespace sinew::inline v1

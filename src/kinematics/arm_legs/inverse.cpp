@@ -4,7 +4,8 @@
 #include "kinematics/arm_legs/legs_work.hpp"
 #include "kinematics/arm_legs/question_check.hpp"
 #include "kinematics/arm_legs/search/legs_walk.hpp"
-#include "kinematics/arms/inverse_search.hpp"
+#include "kinematics/arms/tensions/refined_search.hpp"
+#include "kinematics/arms/tensions/target_rows.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -46,13 +46,6 @@ void write_legs_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState&
   state.energy = group.potential();
 }
 
-const ArmLegsState& refuse_question(const Report& misfit, ArmLegsWorkspace& work) {
-  ArmLegsState& state = work.impl().state;
-  state = {};
-  state.report = misfit;
-  return state;
-}
-
 double legs_size(const ArmLegs& robot) {
   double size = 0;
   for (const ArmLeg& leg : robot.legs) size = std::max(size, leg.arm.length());

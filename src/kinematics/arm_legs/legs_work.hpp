@@ -41,8 +41,6 @@ struct LegsProblem {
 
 /// Of the group, but for the report, `stable`, `resolution` and `reached`.
 void write_legs_state(const ArmLegs& robot, const ArmGroup& group, ArmLegsState& state);
-/// The workspace's state is that the question does not fit: there is none to go on from.
-const ArmLegsState& refuse_question(const Report& misfit, ArmLegsWorkspace& work);
 
 /// The longest leg [m].
 double legs_size(const ArmLegs& robot);

@@ -71,6 +71,13 @@ Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands
   return {Status::converged, 0, 0, {}};
 }
 
+const ArmLegsState& refuse_question(const Report& misfit, ArmLegsWorkspace& work) {
+  ArmLegsState& state = work.impl().state;
+  state = {};
+  state.report = misfit;
+  return state;
+}
+
 bool leaves_plane(const ArmLegs& robot, const SE3<double>& pose) {
   constexpr double rounding = 1e-12;
   return robot.is_planar && (std::abs(pose.p[2]) > rounding * legs_size(robot) ||

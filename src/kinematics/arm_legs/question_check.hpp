@@ -1,5 +1,5 @@
 /// @file question_check.hpp
-/// What of a question does not fit the robot, in words.
+/// What of a question does not fit the robot, in words, and its refusal.
 #pragma once
 #include <span>
 #include <string>
@@ -13,6 +13,8 @@ namespace sinew::inline v1 {
 /// a balance that is not by energy.
 Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands, const ArmLegsLoad& load,
                    const ArmOptions& options, const ArmLegsWorkspace& work);
+/// The workspace's state is that the question does not fit: there is none to go on from.
+const ArmLegsState& refuse_question(const Report& misfit, ArmLegsWorkspace& work);
 
 /// Whether the robot is one in the plane and the pose is not.
 bool leaves_plane(const ArmLegs& robot, const SE3<double>& pose);

@@ -163,12 +163,7 @@ std::array<double, 3> tip_of(const LoadedRod& rod) {
 void write_state(const Arm& arm, ArmWorkspace::Impl& impl) {
   LoadedRod& rod = impl.rod();
   ArmState& state = impl.state;
-  const auto& frame = rod.work().frames.back();
-  Mat<double, 3, 3> turn;
-  turn << frame.R[0], frame.R[1], frame.R[2], frame.R[3], frame.R[4], frame.R[5], frame.R[6], frame.R[7],
-      frame.R[8];
-  state.tip.p = {frame.p[0], frame.p[1], frame.p[2]};
-  state.tip.R = SO3<double>::from(turn);
+  state.tip = pose_of(rod.work().frames.back());
   for (std::size_t i = 0; i < arm.tendons.size(); ++i) {
     const ArmTendon& tendon = arm.tendons[i];
     state.tensions[i] = rod.tensions()[i];

@@ -1,6 +1,7 @@
-#include "kinematics/arms/inverse_search.hpp"
-
+/// Inverse statics of an arm: tensions that take its tip to a target.
 #include "kinematics/arms/arm_work.hpp"
+#include "kinematics/arms/tensions/refined_search.hpp"
+#include "kinematics/arms/tensions/target_rows.hpp"
 
 namespace sinew::inline v1 {
 namespace {

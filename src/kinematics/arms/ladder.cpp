@@ -12,16 +12,6 @@ namespace {
 constexpr std::array<Resolution, 4> along_sections{{{-1, 8}, {5, 16}, {7, 32}, {9, 64}}};
 constexpr std::array<Resolution, 6> between_discs{{{-1, 2}, {3, 3}, {4, 5}, {5, 8}, {6, 13}, {7, 20}}};
 
-/// What a model is refined by, coarse to fine, in order and elements alike, so that a step tells what either
-/// of them was off; empty where it has one resolution. Between two of them is the finer one's elements with
-/// the coarser one's order, which often does as well: resolution 2 k is the k-th, 2 k − 1 the one before it.
-std::span<const Resolution> resolutions_of(const ArmOptions& options) {
-  if (options.order >= 0 || options.elements > 0 || options.balance != ArmBalance::energy) return {};
-  if (options.model == ArmModel::rod) return along_sections;
-  if (options.model == ArmModel::subsegment_rod) return between_discs;
-  return {};
-}
-
 /// The next of the table that has more elements.
 int finer_than(int level) { return ((level + 1) / 2 + 1) * 2; }
 /// The one of the table before it.
@@ -91,6 +81,13 @@ Size size_of(const strain::RodModel& model, std::span<const double> y, std::span
 }
 
 }  // namespace
+
+std::span<const Resolution> resolutions_of(const ArmOptions& options) {
+  if (options.order >= 0 || options.elements > 0 || options.balance != ArmBalance::energy) return {};
+  if (options.model == ArmModel::rod) return along_sections;
+  if (options.model == ArmModel::subsegment_rod) return between_discs;
+  return {};
+}
 
 int level_count(const ArmOptions& options) {
   return std::max(1, 2 * static_cast<int>(resolutions_of(options).size()) - 1);

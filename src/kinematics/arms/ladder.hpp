@@ -18,7 +18,11 @@ struct Resolution {
   int elements;
 };
 
-/// How many levels these options have: 1 where the resolution is given.
+/// What a model is refined by, coarse to fine, in order and elements alike, so that a step tells what either
+/// of them was off; empty where it has one resolution.
+std::span<const Resolution> resolutions_of(const ArmOptions& options);
+/// How many levels these options have: 1 where the resolution is given. Level 2 k is the k-th resolution, and
+/// between two of them is the finer one's elements with the coarser one's order, which often does as well.
 int level_count(const ArmOptions& options);
 /// Order and elements of a level, where there are several.
 Resolution resolution_at(const ArmOptions& options, int level);

@@ -3,6 +3,7 @@
 
 #include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
+#include "strain/rod_frames.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -19,10 +20,7 @@ const strain::Piece& piece_of(const strain::RodModel& model, int element) {
 }  // namespace
 
 SE3<double> pose_of(const strain::RodFrame& frame) {
-  Mat<double, 3, 3> turn;
-  turn << frame.R[0], frame.R[1], frame.R[2], frame.R[3], frame.R[4], frame.R[5], frame.R[6], frame.R[7],
-      frame.R[8];
-  return {{frame.p[0], frame.p[1], frame.p[2]}, SO3<double>::from(turn)};
+  return {place_of(frame), SO3<double>::from(turn_of(frame))};
 }
 
 strain::Six strain_at(const strain::RodModel& model, const strain::RodWork& work, double place, int& near) {

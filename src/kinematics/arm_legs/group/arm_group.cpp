@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/at.hpp"
-#include "kinematics/arm_legs/group/rod_frames.hpp"
+#include "strain/rod_frames.hpp"
 #include "strain/sweep.hpp"
 
 namespace sinew::inline v1 {
@@ -68,7 +68,7 @@ void ArmGroup::stand(Leg& leg, const ArmBasis& basis, const std::vector<double>&
   impl.levels.clear();
   impl.levels.push_back(std::make_unique<ArmRod>(make_rod(leg.own->arm, basis, breaks)));
   impl.level = 0;
-  const Three3 turn = leg.own->base.R.matrix();
+  const Mat<double, 3, 3> turn = leg.own->base.R.matrix();
   strain::RodFrame& foot = rod(leg).work().frames.front();
   for (int i = 0; i < 3; ++i) {
     foot.p[i] = leg.own->base.p[i];

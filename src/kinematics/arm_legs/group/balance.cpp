@@ -6,11 +6,19 @@
 #include <cmath>
 
 #include "base/at.hpp"
-#include "kinematics/arm_legs/group/rod_frames.hpp"
 #include "solve/contraction.hpp"
+#include "strain/rod_frames.hpp"
 #include "strain/sweep.hpp"
 
 namespace sinew::inline v1 {
+namespace {
+
+/// Twice the skew part of a matrix, as a vector: of ½ [v] it is v.
+Vec3<double> axial(const Mat<double, 3, 3>& m) {
+  return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
+}
+
+}  // namespace
 
 auto ArmGroup::mount_of(const Leg& leg) const -> Frame {
   return {platform_.point(leg.own->platform_point), platform_.R.compose(leg.own->mount)};
@@ -28,7 +36,8 @@ void ArmGroup::measure_closure(Leg& leg) {
 bool ArmGroup::clamps_are_aligned() const {
   return std::ranges::all_of(legs_, [&](const Leg& leg) {
     if (!leg.own->is_clamped) return true;
-    const Three3 turn = mount_of(leg).R.matrix().transpose() * turn_of(rod(leg).work().frames.back());
+    const Mat<double, 3, 3> turn =
+        mount_of(leg).R.matrix().transpose() * turn_of(rod(leg).work().frames.back());
     return turn.trace() > 1;
   });
 }
@@ -70,7 +79,7 @@ void ArmGroup::evaluate(Leg& leg) {
   strain::NodeLoad& tip = work.loads.back();
   tip = leg.tip;
   // The moment as dead forces at points of the tip: a potential that is linear in the tip's rotation.
-  const Three3 couple = 0.5 * mount_of(leg).R.matrix() * skew<double>(leg.moment);
+  const Mat<double, 3, 3> couple = 0.5 * mount_of(leg).R.matrix() * skew<double>(leg.moment);
   for (int i = 0; i < 3; ++i) {
     tip.force[i] += leg.force[i];
     for (int j = 0; j < 3; ++j) tip.couple[3 * i + j] += couple(i, j);

@@ -7,8 +7,8 @@
 
 #include "base/at.hpp"
 #include "kinematics/arm_legs/group/regular_lu.hpp"
-#include "kinematics/arm_legs/group/rod_frames.hpp"
 #include "strain/condense.hpp"
+#include "strain/rod_frames.hpp"
 #include "strain/sweep.hpp"
 
 namespace sinew::inline v1 {
@@ -54,7 +54,8 @@ void ArmGroup::set_closure_rows(Leg& leg) {
   Matrix twists(6, n);
   tip_twists(model, work, twists.data());
   const Frame mount = mount_of(leg);
-  const Three3 tip = turn_of(work.frames.back()), turn = mount.R.matrix(), off = turn.transpose() * tip;
+  const Mat<double, 3, 3> tip = turn_of(work.frames.back()), turn = mount.R.matrix(),
+                          off = turn.transpose() * tip;
   const Vec<double, 6> open = leg.off - (1 - share_) * leg.gap;
   Matrix by_strain(6, n);
   Eigen::Matrix<double, 6, 6> by_platform = Eigen::Matrix<double, 6, 6>::Zero();
@@ -62,7 +63,7 @@ void ArmGroup::set_closure_rows(Leg& leg) {
   by_platform.topLeftCorner<3, 3>().setIdentity();
   by_platform.topRightCorner<3, 3>() = -skew<double>(mount.p - platform_.p);
   if (leg.own->is_clamped) {
-    const Three3 whole = off.trace() * Three3::Identity();
+    const Mat<double, 3, 3> whole = off.trace() * Mat<double, 3, 3>::Identity();
     by_strain.bottomRows(3) = -0.5 * (whole - off.transpose()) * twists.bottomRows(3);
     by_platform.bottomRightCorner<3, 3>() = 0.5 * (whole - off) * turn.transpose();
   }

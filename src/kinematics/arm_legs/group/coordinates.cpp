@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/at.hpp"
-#include "kinematics/arm_legs/group/rod_frames.hpp"
+#include "strain/rod_frames.hpp"
 #include "strain/sweep.hpp"
 
 namespace sinew::inline v1 {

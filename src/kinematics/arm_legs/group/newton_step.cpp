@@ -7,7 +7,6 @@
 
 #include "base/at.hpp"
 #include "kinematics/arm_legs/group/regular_lu.hpp"
-#include "kinematics/arm_legs/group/rod_frames.hpp"
 #include "solve/contraction.hpp"
 
 namespace sinew::inline v1 {
@@ -100,9 +99,10 @@ void ArmGroup::advance(Leg& leg, const Frame& after, Numbers by_input) {
   leg.force += change.head<3>();
   if (!leg.own->is_clamped) return;
   // The forces that make the moment kept their directions while the platform turned.
-  const Three3 turned = (after.R.compose(leg.own->mount)).matrix().transpose() * mount_of(leg).R.matrix();
-  leg.moment =
-      0.5 * (turned.trace() * Three3::Identity() - turned.transpose()) * (leg.moment + change.tail<3>());
+  const Mat<double, 3, 3> turned =
+      (after.R.compose(leg.own->mount)).matrix().transpose() * mount_of(leg).R.matrix();
+  leg.moment = 0.5 * (turned.trace() * Mat<double, 3, 3>::Identity() - turned.transpose()) *
+               (leg.moment + change.tail<3>());
 }
 
 void ArmGroup::move_as_planned() {

@@ -19,37 +19,34 @@ constexpr int quick_newton_steps = 6;
 /// @param put what acts, and where a prescribed pose is, at a share of the way
 /// @param reached share of it up to which a stable equilibrium was found
 template <class Put>
-LegsFound continue_to_end(ArmGroup& group, const Put& put, bool is_pose_prescribed, const ArmOptions& options,
-                          const StopToken& stop, double& reached, int max_steps = 0) {
+LegsFound continue_to_end(ArmGroup& group, const Put& put, bool is_pose_prescribed, NewtonBudget& budget,
+                          double& reached, int max_steps = 0) {
   LegsFound all;
   LimbState last = group.state();
   double step = 1;
   for (int tried = 1;; ++tried) {
     const double share = std::min(1.0, reached + step);
     put(share);
-    const LegsFound found = iterate_legs(group, is_pose_prescribed, options, stop, all.iterations);
-    all.iterations += found.iterations;
+    const int before = budget.iterations;
+    const LegsFound found = iterate_legs(group, is_pose_prescribed, budget);
     all.residual = found.residual;
-    if (found.status == Status::stopped || found.status == Status::iteration_limit) {
-      all.status = found.status;
-      return all;
-    }
     const bool is_found = found.status == Status::converged && group.clamps_are_aligned();
     if (is_found && is_stable(group, is_pose_prescribed)) {
       reached = share;
       if (share == 1) return all;
       group.save(last);
-      if (found.iterations <= quick_newton_steps) step *= 2;
+      if (budget.iterations - before <= quick_newton_steps) step *= 2;
     } else {
       all.last_step = is_found ? Status::unstable : found.status;
       group.restore(last);
       step *= 0.5;
     }
-    if (step >= shortest_step && (max_steps == 0 || tried < max_steps)) continue;
+    const bool is_over = found.status == Status::stopped || found.status == Status::iteration_limit;
+    if (!is_over && step >= shortest_step && (max_steps == 0 || tried < max_steps)) continue;
     put(reached);
     group.restore(last);
     group.evaluate();
-    all.status = Status::stalled;
+    all.status = is_over ? found.status : Status::stalled;
     return all;
   }
 }
@@ -61,14 +58,14 @@ ArmGroup::Frame displaced_by_share(const ArmGroup::Frame& from, const Vec<double
           SO3<double>::exp(Vec3<double>(share * twist.tail<3>())).compose(from.R)};
 }
 
-LegsFound grow_legs(ArmGroup& group, const ArmOptions& options, const StopToken& stop, double& reached) {
+LegsFound grow_legs(ArmGroup& group, NewtonBudget& budget, double& reached) {
   reached = 0;
   return continue_to_end(
-      group, [&](double share) { group.set_share(share); }, false, options, stop, reached);
+      group, [&](double share) { group.set_share(share); }, false, budget, reached);
 }
 
-LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
-                    const StopToken& stop, double& reached, int max_steps) {
+LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, NewtonBudget& budget, double& reached,
+                    int max_steps) {
   LegsProblem on_the_way = problem;
   std::vector<double> first;
   for (std::size_t i = 0; i < problem.commands.size(); ++i)
@@ -86,7 +83,7 @@ LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, const ArmOption
     if (pose) group.set_platform(displaced_by_share(from, way, share));
   };
   reached = 0;
-  return continue_to_end(group, put, pose.has_value(), options, stop, reached, max_steps);
+  return continue_to_end(group, put, pose.has_value(), budget, reached, max_steps);
 }
 
 }  // namespace sinew::inline v1

@@ -9,13 +9,13 @@ namespace sinew::inline v1 {
 
 /// From the rest, or where the group is at share 0; the platform is free.
 /// @param reached share of inputs and loads up to which a stable equilibrium was found
-LegsFound grow_legs(ArmGroup& group, const ArmOptions& options, const StopToken& stop, double& reached);
+LegsFound grow_legs(ArmGroup& group, NewtonBudget& budget, double& reached);
 
 /// From the group's equilibrium, at the polynomials it has: all that differs changes evenly, in steps as
 /// short as they have to be. Where that ends early the group is at the last one that was found.
 /// @param reached share of the way; @param max_steps most equilibria that are tried on it, 0: any number
-LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, const ArmOptions& options,
-                    const StopToken& stop, double& reached, int max_steps = 0);
+LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, NewtonBudget& budget, double& reached,
+                    int max_steps = 0);
 
 /// At a share of the way by a twist, its translation and its rotation evenly.
 ArmGroup::Frame displaced_by_share(const ArmGroup::Frame& from, const Vec<double, 6>& twist, double share);

@@ -33,7 +33,8 @@ Report LegsWalk::go(const LegsProblem& problem, bool from_last) {
   ArmOptions options = options_;
   options.max_iterations = std::min(options.max_iterations, most_iterations);
   double reached = 0;
-  const LegsFound found = walk_legs(group, problem, options, work_.stop, reached, most_equilibria);
+  NewtonBudget budget(options, work_.stop);
+  const LegsFound found = walk_legs(group, problem, budget, reached, most_equilibria);
   if (found.status == Status::converged) {
     before_ = problem;
   } else {
@@ -42,9 +43,9 @@ Report LegsWalk::go(const LegsProblem& problem, bool from_last) {
     group.evaluate();
   }
   write_legs_state(robot_, group, impl.state);
-  impl.state.report = {Status::converged, found.iterations, found.residual, {}};
+  impl.state.report = {Status::converged, budget.iterations, found.residual, {}};
   impl.state.resolution = 0;
-  return {found.status, found.iterations, found.residual, {}};
+  return {found.status, budget.iterations, found.residual, {}};
 }
 
 void LegsWalk::keep() {

@@ -21,8 +21,7 @@ constexpr double rounding_multiple = 1e3;
 
 }  // namespace
 
-LegsFound iterate_legs(ArmGroup& group, bool is_pose_prescribed, const ArmOptions& options,
-                       const StopToken& stop, int spent) {
+LegsFound iterate_legs(ArmGroup& group, bool is_pose_prescribed, NewtonBudget& budget) {
   LegsFound found;
   double before = std::numeric_limits<double>::infinity();
   bool was_slow = false;
@@ -30,19 +29,19 @@ LegsFound iterate_legs(ArmGroup& group, bool is_pose_prescribed, const ArmOption
     found.status = status;
     return found;
   };
-  for (;; ++found.iterations) {
+  for (int steps = 0;; ++steps, ++budget.iterations) {
     found.residual = group.evaluate();
     if (is_pose_prescribed) found.residual = group.limb_error();
     if (!std::isfinite(found.residual)) return end(Status::left_domain);
-    if (found.residual <= options.tolerance) return found;
+    if (found.residual <= budget.tolerance) return found;
     const bool is_slow = found.residual > slow_share * before;
-    if (found.residual <= rounding_multiple * options.tolerance && is_slow && was_slow)
+    if (found.residual <= rounding_multiple * budget.tolerance && is_slow && was_slow)
       return found;  // as near as rounding lets it
     was_slow = is_slow;
     before = found.residual;
-    if (stop.stop_requested()) return end(Status::stopped);
-    if (spent + found.iterations >= options.max_iterations) return end(Status::iteration_limit);
-    if (found.iterations >= most_newton_steps) return end(Status::stalled);
+    if (budget.stop.stop_requested()) return end(Status::stopped);
+    if (budget.iterations >= budget.max_iterations) return end(Status::iteration_limit);
+    if (steps >= most_newton_steps) return end(Status::stalled);
     if (!group.factor_limbs() || !(is_pose_prescribed ? group.plan_at_prescribed_pose() : group.plan()))
       return end(Status::singular);
     if (group.planned_size() > longest_turn) return end(Status::stalled);

@@ -9,16 +9,27 @@ namespace sinew::inline v1 {
 /// How a search for an equilibrium ended.
 struct LegsFound {
   Status status = Status::converged;
-  int iterations = 0;
   double residual = 0;
   /// Of a search in steps that is `stalled`: of the last step that was tried.
   Status last_step = Status::converged;
 };
 
+/// Newton's steps of a search: what ends them, and how many all its stages have taken together.
+struct NewtonBudget {
+  double tolerance;    ///< of the residual [1]
+  int max_iterations;  ///< of all stages together [1]
+  const StopToken& stop;
+  int iterations = 0;  ///< that were taken [1]
+
+  NewtonBudget(const ArmOptions& options, const StopToken& token)
+      : tolerance(options.tolerance),
+        max_iterations(options.max_iterations),
+        stop(token) {}
+};
+
 /// At the share of inputs and loads that the group has.
-/// @param is_pose_prescribed the platform stays where it is; @param spent of options' iterations
-LegsFound iterate_legs(ArmGroup& group, bool is_pose_prescribed, const ArmOptions& options,
-                       const StopToken& stop, int spent);
+/// @param is_pose_prescribed the platform stays where it is
+LegsFound iterate_legs(ArmGroup& group, bool is_pose_prescribed, NewtonBudget& budget);
 /// Of an equilibrium that the group was evaluated at; factors its legs.
 bool is_stable(ArmGroup& group, bool is_pose_prescribed);
 

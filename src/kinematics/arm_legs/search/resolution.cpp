@@ -2,34 +2,45 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <ranges>
+
+#include "base/at.hpp"
+#include "kinematics/arms/ladder.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-struct Finer {
-  int order, elements;
-};
-constexpr std::array<Finer, 4> along_a_section{{{-1, 8}, {5, 16}, {7, 32}, {9, 64}}};
-constexpr std::array<Finer, 5> from_disc_to_disc{{{-1, 2}, {3, 3}, {4, 5}, {5, 8}, {6, 13}}};
-
-std::span<const Finer> finer_bases(const ArmOptions& options) {
-  if (options.order >= 0 || options.elements > 0 || !(options.accuracy > 0)) return {};
-  if (options.model == ArmModel::rod) return along_a_section;
-  if (options.model == ArmModel::subsegment_rod) return from_disc_to_disc;
-  return {};
-}
-
+/// Levels of polynomials at most [1]: between discs an arm has one more, finer than legs are refined to.
+constexpr std::size_t most_levels = 5;
 /// An error beyond so many times the accuracy is reported [1]: it is an estimate by two polynomials, and less
 /// would refuse answers that are good enough.
 constexpr double reported_multiple = 10;
+
+/// By how much polynomials that are finer move the platform, or would if it were free [m].
+double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_pose_prescribed) {
+  const auto &a = coarse.platform(), &b = fine.platform();
+  if (!is_pose_prescribed)
+    return (a.p - b.p).norm() + coarse.radius() * (a.R.inverse().compose(b.R)).log().norm();
+  const ArmGroup::Wrench change = constraint_wrench(fine) - constraint_wrench(coarse);
+  ArmGroup::Matrix twists, by_tendon;
+  if (!fine.factor_limbs() || !fine.answers(twists, by_tendon)) return 0;  // at a fold nothing is told
+  const Vec<double, 6> twist = twists.rightCols(6) * change;
+  return twist.head<3>().norm() + coarse.radius() * twist.tail<3>().norm();
+}
+
+/// The error that the finer ones have themselves, as errors fall with the fourth power of elements [m].
+double error_left(double moved, const ArmBasis& coarse, const ArmBasis& fine) {
+  const double by = static_cast<double>(fine.elements) / coarse.elements;
+  return moved / (by * by * by * by - 1);
+}
 
 }  // namespace
 
 std::vector<ArmBasis> bases_of(const ArmOptions& options) {
   std::vector<ArmBasis> bases;
-  for (const Finer& finer : finer_bases(options))
-    bases.push_back({options.model, finer.order, finer.elements});
+  if (options.accuracy > 0)
+    for (const Resolution& finer : resolutions_of(options) | std::views::take(most_levels))
+      bases.push_back({options.model, finer.order, finer.elements});
   if (bases.empty()) bases.push_back({options.model, options.order, options.elements});
   return bases;
 }
@@ -48,20 +59,29 @@ void prepare_levels(const ArmOptions& options, const LegsBreaks& breaks, ArmLegs
   impl.breaks = breaks;
 }
 
-double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_pose_prescribed) {
-  const auto &a = coarse.platform(), &b = fine.platform();
-  if (!is_pose_prescribed)
-    return (a.p - b.p).norm() + coarse.radius() * (a.R.inverse().compose(b.R)).log().norm();
-  const ArmGroup::Wrench change = constraint_wrench(fine) - constraint_wrench(coarse);
-  ArmGroup::Matrix twists, by_tendon;
-  if (!fine.factor_limbs() || !fine.answers(twists, by_tendon)) return 0;  // at a fold nothing is told
-  const Vec<double, 6> twist = twists.rightCols(6) * change;
-  return twist.head<3>().norm() + coarse.radius() * twist.tail<3>().norm();
-}
-
-double error_left(double moved, const ArmBasis& coarse, const ArmBasis& fine) {
-  const double by = static_cast<double>(fine.elements) / coarse.elements;
-  return moved / (by * by * by * by - 1);
+LegsFound refine_levels(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
+                        ArmLegsWorkspace& work, Refinement how, NewtonBudget& budget, LegsFound found) {
+  ArmLegsWorkspace::Impl& impl = work.impl();
+  const auto bases = bases_of(options);
+  const bool is_pose_prescribed = problem.prescribed_pose.has_value();
+  for (std::size_t next = at(impl.level + 1); found.status == Status::converged && next < bases.size();
+       ++next) {
+    auto& level = impl.levels[next];
+    if (!level || !how.keeps_groups) level = std::make_unique<ArmGroup>(robot, bases[next], impl.breaks);
+    ArmGroup &coarse = *impl.levels[next - 1], &fine = *level;
+    fine.set_problem(problem.commands, problem.wrench, problem.loads);
+    fine.carry_over_from(coarse);
+    fine.set_share(1);
+    impl.level = static_cast<int>(next);
+    found = iterate_legs(fine, is_pose_prescribed, budget);
+    if (how.keeps_stable && found.status == Status::converged && !is_stable(fine, is_pose_prescribed))
+      found.status = Status::unstable;
+    if (found.status != Status::converged) break;  // what the coarser one found is none of the finer
+    impl.state.resolution =
+        error_left(moved_by(coarse, fine, is_pose_prescribed), bases[next - 1], bases[next]);
+    if (impl.state.resolution <= options.accuracy * legs_size(robot)) break;
+  }
+  return found;
 }
 
 void report_coarse(double error, double wanted, Report& report) {

@@ -1,9 +1,10 @@
 /// @file resolution.hpp
-/// Groups of polynomials from coarse to fine, and how far an equilibrium of one of them is off.
+/// Groups of polynomials from coarse to fine, and equilibria that are refined by them.
 #pragma once
 #include <vector>
 
 #include "kinematics/arm_legs/legs_work.hpp"
+#include "kinematics/arm_legs/search/newton.hpp"
 
 namespace sinew::inline v1 {
 
@@ -14,10 +15,16 @@ bool levels_are_for(const ArmOptions& options, const ArmLegsWorkspace::Impl& imp
 /// Makes room for groups of these options and breaks; those of others go.
 void prepare_levels(const ArmOptions& options, const LegsBreaks& breaks, ArmLegsWorkspace& work);
 
-/// By how much polynomials that are finer move the platform, or would if it were free [m].
-double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_pose_prescribed);
-/// The error that the finer ones have themselves, as errors fall with the fourth power of elements [m].
-double error_left(double moved, const ArmBasis& coarse, const ArmBasis& fine);
+/// How finer polynomials go on from an equilibrium.
+struct Refinement {
+  bool keeps_stable;  ///< one that does not hold is `unstable`, and ends it
+  bool keeps_groups;  ///< those that are there are used again
+};
+/// From the equilibrium of the workspace's level to finer polynomials, until these move the platform less
+/// than is asked. The level is then that of the last ones, and the state's resolution what they are off.
+/// @param found how the search at the workspace's level ended; @returns how it ended at the last
+LegsFound refine_levels(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
+                        ArmLegsWorkspace& work, Refinement how, NewtonBudget& budget, LegsFound found);
 /// Says so where an error is far from the accuracy that was asked.
 void report_coarse(double error, double wanted, Report& report);
 

@@ -22,6 +22,7 @@ class EquilibriumSearch {
         work_(work),
         impl_(work.impl()),
         end_(end),
+        budget_(options, work.stop),
         bases_(bases_of(options)),
         is_pose_prescribed_(problem.prescribed_pose.has_value()),
         goes_on_(options.from_last && levels_are_for(options, impl_) && impl_.has_last()) {}
@@ -31,7 +32,10 @@ class EquilibriumSearch {
     if (goes_on_) go_on_from_last();
     if (!goes_on_ || begins_anew_) begin_anew();
     impl_.level = static_cast<int>(level_);
-    if (end_ != LegsEnd::coarse) refine();
+    if (end_ != LegsEnd::coarse)
+      found_ = refine_levels(robot_, problem_, options_, work_, {true, goes_on_ && !begins_anew_}, budget_,
+                             found_);
+    group_ = &impl_.group();
     write_report();
     write_stability();
     write_legs_state(robot_, *group_, impl_.state);
@@ -49,12 +53,11 @@ class EquilibriumSearch {
       prepare_levels(options_, together(breaks, breaks_for(robot_, parted_->loads())), work_);
     }
   }
-  void put(ArmGroup& group) const { group.set_problem(problem_.commands, problem_.wrench, problem_.loads); }
-  /// A group at rest; made anew, since its shapes are those at rest only then.
-  ArmGroup& at_rest(std::size_t level) {
-    impl_.levels[level] = std::make_unique<ArmGroup>(robot_, bases_[level], impl_.breaks);
-    put(*impl_.levels[level]);
-    return *impl_.levels[level];
+  /// The coarsest group at rest; made anew, since its shapes are those at rest only then.
+  void put_at_rest() {
+    impl_.levels[0] = std::make_unique<ArmGroup>(robot_, bases_[0], impl_.breaks);
+    group_ = impl_.levels[0].get();
+    group_->set_problem(problem_.commands, problem_.wrench, problem_.loads);
   }
   void go_on_from_last() {
     // One level coarser: the next one then says how far both are off.
@@ -71,42 +74,18 @@ class EquilibriumSearch {
       group_->set_problem(commands, last.wrench(), last.loads());
       group_->set_share(1);
     }
-    found_ = walk_legs(*group_, problem_, options_, work_.stop, impl_.state.reached);
-    begins_anew_ =
-        end_ != LegsEnd::on_the_way && found_.status != Status::converged && found_.status != Status::stopped;
+    found_ = walk_legs(*group_, problem_, budget_, impl_.state.reached);
+    begins_anew_ = end_ != LegsEnd::on_the_way && found_.status != Status::converged &&
+                   found_.status != Status::stopped && found_.status != Status::iteration_limit;
   }
   void begin_anew() {
     double& reached = impl_.state.reached;
-    int spent = found_.iterations;
     level_ = 0;
-    group_ = &at_rest(0);
-    found_ = begin_at_rest(*group_, problem_, options_, work_.stop, reached);
+    put_at_rest();
+    found_ = begin_at_rest(*group_, problem_, budget_, reached);
     if (is_pose_prescribed_ && found_.status == Status::stalled && reached == 0) {
-      spent += found_.iterations;
-      group_ = &at_rest(0);
-      found_ = begin_unloaded(*group_, problem_, options_, work_.stop, reached);
-    }
-    found_.iterations += spent;
-  }
-  /// By finer polynomials, until these move the platform less than is asked.
-  void refine() {
-    for (std::size_t next = level_ + 1; found_.status == Status::converged && next < bases_.size(); ++next) {
-      const bool is_there = goes_on_ && !begins_anew_ && impl_.levels[next];
-      ArmGroup& coarse = *group_;
-      group_ = is_there ? impl_.levels[next].get() : &at_rest(next);
-      if (is_there) put(*group_);
-      group_->carry_over_from(coarse);
-      group_->set_share(1);
-      impl_.level = static_cast<int>(next);
-      const int spent = found_.iterations;
-      found_ = iterate_legs(*group_, is_pose_prescribed_, options_, work_.stop, spent);
-      found_.iterations += spent;
-      if (found_.status == Status::converged && !is_stable(*group_, is_pose_prescribed_))
-        found_.status = Status::unstable;
-      if (found_.status != Status::converged) return;  // what the coarser one found is none of the finer
-      impl_.state.resolution =
-          error_left(moved_by(coarse, *group_, is_pose_prescribed_), bases_[next - 1], bases_[next]);
-      if (impl_.state.resolution <= wanted()) return;
+      put_at_rest();
+      found_ = begin_unloaded(*group_, problem_, budget_, reached);
     }
   }
   void write_report() {
@@ -114,7 +93,7 @@ class EquilibriumSearch {
     Report& report = state.report;
     const Status status = found_.status;
     report.status = status;
-    report.iterations = found_.iterations;
+    report.iterations = budget_.iterations;
     report.residual = found_.residual;
     if (status == Status::unstable || status == Status::singular)
       report.message = FixedText<240>("what coarser polynomials found does not hold by finer ones");
@@ -144,6 +123,7 @@ class EquilibriumSearch {
   ArmLegsWorkspace& work_;
   ArmLegsWorkspace::Impl& impl_;
   LegsEnd end_;
+  NewtonBudget budget_;
   std::vector<ArmBasis> bases_;
   bool is_pose_prescribed_, goes_on_;
   std::unique_ptr<ArmGroup> parted_;  ///< the last equilibrium's, where loads act at other places

@@ -1,7 +1,6 @@
-/// @file inverse_search.hpp
+/// @file tension_search.hpp
 /// The search for tensions that take a tip, or a platform, to a target, whatever they pull at.
 #pragma once
-#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +29,12 @@ class PulledBody {
   virtual void bring_back() = 0;
 };
 
+/// What is off by more than so many times the precision is not at the target [1]; what is off by less is,
+/// though finer polynomials may move it a little.
+inline constexpr double far_multiple = 10;
+/// What a tip is off where no equilibrium was found.
+inline constexpr double error_of_none = 1e300;
+
 struct TensionSearch {
   std::size_t tendons = 0;
   std::string_view what = "tip", whose = "the arm's";  ///< what is taken to the target; whose length counts
@@ -43,7 +48,7 @@ struct TensionSearch {
   int most_work = 1 << 30;  ///< equilibria and their iterations, of all starts: any number, if not told
 };
 struct FoundTensions {
-  Report report;  ///< of the equilibrium; its residual is what the tip is off, 1e300 where none was found
+  Report report;  ///< of the equilibrium; its residual is what the tip is off
   std::vector<double> tensions;
   bool has_begun = false;  ///< some first tensions hold the body
 };
@@ -51,31 +56,6 @@ struct FoundTensions {
 /// Tensions of a target with the least sum of squares, or those that come nearest to it.
 FoundTensions search_tensions(const ArmTarget& target, const TensionSearch& search, PulledBody& body);
 
-/// A search at polynomials that find the way, then again from its end at those that its end needs.
-class RefinedSearch {
- public:
-  RefinedSearch() = default;
-  RefinedSearch(const RefinedSearch&) = delete;
-  RefinedSearch& operator=(const RefinedSearch&) = delete;
-  virtual ~RefinedSearch() = default;
-
-  /// What is searched: at the polynomials that find the way, or at those that the last answer has.
-  virtual std::unique_ptr<PulledBody> body(bool is_first) = 0;
-  /// From the body's equilibrium, which was brought back: the answer, at polynomials that are fine enough.
-  virtual Report refine(const std::vector<double>& tensions) = 0;
-  /// Whether what is off the target is refined, too.
-  virtual bool refines_nearest() const = 0;
-  /// The body's equilibrium as the search has it, which was brought back.
-  virtual Report as_found(PulledBody& body, const std::vector<double>& tensions) = 0;
-
-  /// Its residual is what the body's tip is off.
-  Report run(const ArmTarget& target, TensionSearch search);
-};
-
-/// What the tip is off: place over the length, angle [rad], the largest.
-double off_target(const ArmTarget& target, const SE3<double>& tip, double length);
-/// What is wrong with the target, or empty.
-std::string_view target_misfit(const ArmTarget& target);
 /// The tension of a tendon that bends its section by about one radian: the least of all [N].
 double usual_tension(const Arm& arm);
 /// The bound that the question sets, or one beyond what any arm is pulled with [N].

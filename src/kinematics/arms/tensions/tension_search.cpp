@@ -1,83 +1,12 @@
-#include "kinematics/arms/inverse_search.hpp"
-
-#include <fmt/format.h>
+#include "kinematics/arms/tensions/tension_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/arms/bounded_least_squares.hpp"
+#include "kinematics/arms/tensions/bounded_least_squares.hpp"
+#include "kinematics/arms/tensions/target_rows.hpp"
 
 namespace sinew::inline v1 {
-namespace {
-
-/// What the tip is off, and its rates by tensions: rows of places over the arm's length and of angles.
-struct Rows {
-  std::vector<double> off, J;  ///< J: rows × tendons
-};
-
-/// Twist in base axes from the tip to the target, of what the target gives.
-std::vector<double> tip_off(const ArmTarget& target, const SE3<double>& tip, double length) {
-  std::vector<double> off;
-  if (target.position)
-    for (std::size_t i = 0; i < 3; ++i)
-      off.push_back(((*target.position)[i] - tip.p[static_cast<int>(i)]) / length);
-  if (target.quaternion) {
-    const SO3<double> wanted = SE3<double>::from({{0, 0, 0}, *target.quaternion}).R;
-    const Vec3<double> turn = wanted.compose(tip.R.inverse()).log();
-    for (int i = 0; i < 3; ++i) off.push_back(turn[i]);
-  } else if (target.direction) {
-    Vec3<double> to((*target.direction)[0], (*target.direction)[1], (*target.direction)[2]);
-    to /= to.norm();
-    const Vec3<double> z = tip.rotate({0, 0, 1});
-    Vec3<double> axis = cross(z, to);
-    const double sine = axis.norm(), angle = std::atan2(sine, dot(z, to));
-    if (sine > 1e-12)
-      axis *= angle / sine;
-    else if (angle > 1)
-      axis = tip.rotate({angle, 0, 0});
-    // the two turns across the axis
-    const Vec3<double> x = tip.rotate({1, 0, 0}), y = tip.rotate({0, 1, 0});
-    off.push_back(dot(axis, x));
-    off.push_back(dot(axis, y));
-  }
-  return off;
-}
-
-Rows rows_of(const ArmTarget& target, const SE3<double>& tip, const std::vector<double>& J, double length) {
-  Rows rows;
-  rows.off = tip_off(target, tip, length);
-  const std::size_t m = J.size() / 6;
-  const auto add = [&](const Vec3<double>& by, std::size_t first, double scale) {
-    for (std::size_t k = 0; k < m; ++k) {
-      double sum = 0;
-      for (std::size_t i = 0; i < 3; ++i) sum += by[static_cast<int>(i)] * J[(first + i) * m + k];
-      rows.J.push_back(scale * sum);
-    }
-  };
-  if (target.position)
-    for (int i = 0; i < 3; ++i) add(Vec3<double>(i == 0, i == 1, i == 2), 0, 1 / length);
-  if (target.quaternion)
-    for (int i = 0; i < 3; ++i) add(Vec3<double>(i == 0, i == 1, i == 2), 3, 1);
-  else if (target.direction) {
-    add(tip.rotate({1, 0, 0}), 3, 1);
-    add(tip.rotate({0, 1, 0}), 3, 1);
-  }
-  return rows;
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
-}
-
-double squares(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return sum;
-}
-
-}  // namespace
 
 std::vector<TendonCommand> as_commands(const std::vector<double>& tensions) {
   std::vector<TendonCommand> commands;
@@ -101,102 +30,13 @@ double most_tension(const ArmInverseOptions& options, double usual) {
   return options.most_tension > 0 ? options.most_tension : unbounded * usual;
 }
 
-std::string_view target_misfit(const ArmTarget& target) {
-  if (!target.position && !target.direction && !target.quaternion) return "the target is empty";
-  if (target.direction && target.quaternion) return "the target has a direction and a quaternion; keep one";
+namespace {
+
+double squares(const std::vector<double>& values) {
   double sum = 0;
-  if (target.position)
-    for (const double x : *target.position) sum += x;
-  if (target.direction) {
-    double square = 0;
-    for (const double x : *target.direction) square += x * x;
-    if (!(square > 0)) return "the direction has no length";
-    sum += square;
-  }
-  if (target.quaternion) {
-    double square = 0;
-    for (const double x : *target.quaternion) square += x * x;
-    if (!(square > 0)) return "the quaternion has no length";
-    sum += square;
-  }
-  if (!std::isfinite(sum)) return "the target is not finite";
-  return {};
+  for (const double value : values) sum += value * value;
+  return sum;
 }
-
-double off_target(const ArmTarget& target, const SE3<double>& tip, double length) {
-  return largest(tip_off(target, tip, length));
-}
-
-namespace {
-
-/// Searches, each by the polynomials that the end of the one before needed [1]: it begins so near its end
-/// that more are only asked for where finer polynomials go on moving the tip.
-constexpr int most_refined_searches = 4;
-/// Equilibria and their Newton's steps of a search that is made again [1]: it has a few steps to go.
-constexpr int most_work_again = 1000;
-/// What is off by more than so many times the precision is not at the target [1]; what is off by less is,
-/// though finer polynomials may move it a little.
-constexpr double far_multiple = 10;
-/// What a tip is off where no equilibrium was found.
-constexpr double error_of_none = 1e300;
-
-/// Of a search that ended without an equilibrium.
-Report without_equilibrium(const FoundTensions& found, const TensionSearch& search, int iterations) {
-  const std::string why =
-      found.has_begun
-          ? fmt::format("the search for tensions lost the equilibrium of the {} on its way", search.what)
-          : fmt::format(
-                "the search for tensions has nowhere to begin: of {} first tensions, none at all and "
-                "some of each, none holds the {} under these loads",
-                search.starts, search.what);
-  return {Status::stalled, iterations, 0,
-          FixedText<240>(why + "; give a start, where others hold it, or less load")};
-}
-
-}  // namespace
-
-Report RefinedSearch::run(const ArmTarget& target, TensionSearch search) {
-  int iterations = 0;
-  Report report;
-  bool is_confirmed = true;
-  for (int round = 0; round < most_refined_searches; ++round) {
-    const std::unique_ptr<PulledBody> searched = body(round == 0);
-    const FoundTensions found = search_tensions(target, search, *searched);
-    iterations += found.report.iterations;
-    const Status status = found.report.status;
-    if (status == Status::bad_input || status == Status::unsupported || status == Status::stopped)
-      return found.report;
-    if (!(found.report.residual < error_of_none)) return without_equilibrium(found, search, iterations);
-    searched->bring_back();
-    const bool is_near = found.report.residual <= search.precision,
-               is_far = found.report.residual > far_multiple * search.precision;
-    report = is_near || refines_nearest() ? refine(found.tensions) : as_found(*searched, found.tensions);
-    is_confirmed = report.is_solved() || report.status == Status::stopped || !is_far;
-    if (!is_confirmed) {
-      searched->bring_back();
-      report = as_found(*searched, found.tensions);
-    }
-    report.iterations = iterations;
-    if (!report.is_solved()) return report;
-    report.residual = off_target(target, searched->tip(), search.length);
-    if (searched->last_tensions().empty()) return report;  // it does not hold, and none goes on from it
-    if (!is_near || report.residual <= search.precision) break;
-    search.from_last = true;
-    search.starts = 1;
-    search.most_work = most_work_again;
-  }
-  if (report.residual > far_multiple * search.precision) {
-    const std::string up_to = search.asked > 0 ? fmt::format(" up to {:.4g} N", search.asked) : std::string();
-    const std::string_view by = is_confirmed ? "" : ", by coarse polynomials that finer ones do not confirm";
-    report.status = Status::unreachable;
-    report.message = FixedText<240>(fmt::format(
-        "no tensions{} were found that take the {} there; the nearest is off by {:.2e} of {} length or rad{}",
-        up_to, search.what, report.residual, search.whose, by));
-  }
-  return report;
-}
-
-namespace {
 
 /// Steps from one beginning [1]: a way that takes this many goes to and fro.
 constexpr int most_tension_steps = 100;
@@ -299,7 +139,7 @@ class TensionSteps {
     std::vector<double> J;
     if (!body_.rates(J)) return false;
     const std::size_t m = search_.tendons;
-    const Rows rows = rows_of(target_, body_.tip(), J, search_.length);
+    const TargetRows rows = rows_of(target_, body_.tip(), J, search_.length);
     std::vector<double> b = rows.off;
     for (std::size_t r = 0; r < b.size(); ++r)
       for (std::size_t i = 0; i < m; ++i) b[r] += rows.J[r * m + i] * tensions_[i];

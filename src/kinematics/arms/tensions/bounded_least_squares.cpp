@@ -1,8 +1,10 @@
-#include "kinematics/arms/bounded_least_squares.hpp"
+#include "kinematics/arms/tensions/bounded_least_squares.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -10,9 +12,9 @@ namespace {
 /// Weight of the centre over the mean square of A's columns [1]: small beside what A tells, and still 1e9
 /// times what rounding leaves of a square where A tells nothing.
 constexpr double centre_weight = 1e-7;
-/// Rounds of the active set [1]: each frees or binds a tension, so that some tens of tendons end long before;
-/// a set that goes round in circles ends here, at tensions that are within their bounds.
-constexpr int most_active_sets = 100;
+/// Rounds of the active set for each unknown [1]: each binds one or more of them, or frees one and lowers the
+/// squares; rounding that goes round in circles ends here, at tensions that are within their bounds.
+constexpr std::size_t most_active_sets = 10;
 /// Slope of the squares, over those of A, below which freeing a tension gains nothing but rounding [1].
 constexpr double least_gain = 1e-12;
 /// In place of 0 where that would be divided by.
@@ -50,8 +52,9 @@ class NormalEquations {
         most_(most),
         normal_(m_ * m_, 0.0),
         side_(m_, 0.0),
-        x_(m_, 0.0),
+        x_(centre),
         state_(m_, At::free) {
+    for (double& value : x_) value = std::clamp(value, 0.0, most_);
     for (const double a : A) size_ += a * a;
     const double small = centre_weight * size_ / static_cast<double>(m_) + hardly_any;
     for (std::size_t i = 0; i < m_; ++i) {
@@ -62,18 +65,18 @@ class NormalEquations {
       normal_[i * m_ + i] += small;
     }
   }
-  /// By an active set.
+  /// By an active set, from within the bounds: the squares only fall.
   std::vector<double> solve() {
-    for (int round = 0; round < most_active_sets; ++round)
+    for (std::size_t round = 0; round < most_active_sets * m_; ++round)
       if (!solve_free() && !free_one()) break;
-    for (double& value : x_) value = std::clamp(value, 0.0, most_);
     return x_;
   }
 
  private:
   enum class At { low, free, high };
 
-  /// Those that are free, the others at their bounds. @returns whether one of them had to be bound
+  /// Those that are free, the others at their bounds; as far as the first bound on the way.
+  /// @returns whether one of them had to be bound
   bool solve_free() {
     std::vector<std::size_t> free;
     for (std::size_t i = 0; i < m_; ++i)
@@ -87,12 +90,23 @@ class NormalEquations {
       for (std::size_t j = 0; j < n; ++j) matrix[i * n + j] = normal_[free[i] * m_ + free[j]];
     }
     const std::vector<double> found = solve_positive(std::move(matrix), right);
+    // Of the way up to the bound that it crosses: 0 where x is at the bound already, 1 where it crosses none.
+    const auto share_to_bound = [&](std::size_t i) {
+      const double from = x_[free[i]], to = found[i];
+      return to < 0 ? from / (from - to) : to > most_ ? (most_ - from) / (to - from) : 1;
+    };
+    double share = 1;
+    for (std::size_t i = 0; i < n; ++i) share = std::min(share, share_to_bound(i));
     bool is_bound = false;
-    for (std::size_t i = 0; i < m_; ++i) x_[i] = state_[i] == At::high ? most_ : 0;
     for (std::size_t i = 0; i < n; ++i) {
-      x_[free[i]] = found[i];
-      if (found[i] < 0) state_[free[i]] = At::low, is_bound = true;
-      if (found[i] > most_) state_[free[i]] = At::high, is_bound = true;
+      double& x = x_[free[i]];
+      if ((found[i] < 0 || found[i] > most_) && share_to_bound(i) <= share) {
+        state_[free[i]] = found[i] < 0 ? At::low : At::high;
+        x = found[i] < 0 ? 0 : most_;
+        is_bound = true;
+      } else {
+        x = share < 1 ? std::clamp(x + share * (found[i] - x), 0.0, most_) : found[i];
+      }
     }
     return is_bound;
   }
@@ -126,7 +140,11 @@ constexpr int weighted_solves = 4;
 
 std::vector<double> bounded_least_squares(const std::vector<double>& A, const std::vector<double>& b,
                                           const std::vector<double>& centre, double most) {
+  const auto is_finite = [](double x) { return std::isfinite(x); };
   const std::size_t m = centre.size();
+  if (!std::ranges::all_of(A, is_finite) || !std::ranges::all_of(b, is_finite) ||
+      !std::ranges::all_of(centre, is_finite) || std::isnan(most))
+    return std::vector<double>(m, not_a_number);
   std::vector<double> asked = b, x;
   for (int round = 0; round < weighted_solves; ++round) {
     x = NormalEquations(A, asked, centre, most).solve();
