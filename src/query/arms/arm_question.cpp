@@ -167,7 +167,7 @@ void ArmQuestion<Arms>::read_measured() {
 
 template <class Arms>
 void ArmQuestion<Arms>::read() {
-  options.arm = read_arm_options(*this, robot);
+  options.arm = read_arm_options(*this, ArmTypes<Arms>::usual_iterations);
   if (ask == Ask::inverse)
     target = read_arm_target(*this, is_planar(robot));
   else

@@ -198,7 +198,7 @@ void ArmPath<ArmLegs>::read_wanted() {
 
 template <class Arms>
 void ArmPath<Arms>::read() {
-  options_.arm = read_arm_options(*this, robot);
+  options_.arm = read_arm_options(*this, ArmTypes<Arms>::usual_iterations);
   path_ = read_points(*this);
   read_arm_start(*this, options_.arm);
   read_wanted();

@@ -27,6 +27,7 @@ struct ArmTypes<Arm> {
   using Step = ArmStep;
   using Point = ArmPathPoint;
   static constexpr auto& inverse = arm_inverse;
+  static constexpr int usual_iterations = ArmOptions{}.max_iterations;
   static const Arm& of(const Robot& robot) { return *robot.arm(); }
   static ArmWorkspace& of(const sinew::Workspace& work) { return *work.arm; }
 };
@@ -42,6 +43,7 @@ struct ArmTypes<ArmLegs> {
   using Step = ArmLegsStep;
   using Point = ArmLegsState;
   static constexpr auto& inverse = arm_legs_inverse;
+  static constexpr int usual_iterations = 2000;  ///< of all steps in which inputs and loads grow
   static const ArmLegs& of(const Robot& robot) { return *robot.arm_legs(); }
   static ArmLegsWorkspace& of(const sinew::Workspace& work) { return *work.arm_legs; }
 };
@@ -111,10 +113,8 @@ template <class Arms>
 typename ArmTypes<Arms>::Load read_arm_load(const Arms& robot, Reader& place,
                                             typename ArmTypes<Arms>::Load load = {});
 /// `model`, `order`, `elements`, `accuracy` and the bound on iterations.
-/// @{
-ArmOptions read_arm_options(Question& context, const Arm&);
-ArmOptions read_arm_options(Question& context, const ArmLegs&);
-/// @}
+/// @param usual_iterations that bound where none is asked for
+ArmOptions read_arm_options(Question& context, int usual_iterations);
 /// `start`: `last`, where the workspace is.
 void read_arm_start(Question& context, ArmOptions& options);
 /// The mean curvatures of equal parts of a backbone, at which a search may begin.

@@ -185,7 +185,7 @@ typename ArmTypes<Arms>::Load read_arm_load(const Arms& robot, Reader& place,
 template ArmLoad read_arm_load(const Arm&, Reader&, ArmLoad);
 template ArmLegsLoad read_arm_load(const ArmLegs&, Reader&, ArmLegsLoad);
 
-ArmOptions read_arm_options(Question& context, const Arm&) {
+ArmOptions read_arm_options(Question& context, int usual_iterations) {
   ArmOptions options;
   Reader& query = context.query;
   if (const auto model = query.optional("model"))
@@ -206,13 +206,7 @@ ArmOptions read_arm_options(Question& context, const Arm&) {
   }
   if (const auto accuracy = query.optional("accuracy"))
     options.accuracy = accuracy->number({.low = 0, .high = 1});
-  if (context.max_iterations) options.max_iterations = *context.max_iterations;
-  return options;
-}
-
-ArmOptions read_arm_options(Question& context, const ArmLegs&) {
-  ArmOptions options = read_arm_options(context, Arm());
-  if (!context.max_iterations) options.max_iterations = 2000;  // of all steps in which inputs and loads grow
+  options.max_iterations = context.max_iterations.value_or(usual_iterations);
   return options;
 }
 
