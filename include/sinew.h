@@ -17,7 +17,9 @@
  *
  * Nothing throws. Texts are UTF-8, of `size` bytes where one is given to sinew, ended by 0 where sinew gives
  * one; those belong to the caller and go back by sinew_free. NULL in the place of an object or a text is
- * answered by SINEW_BAD_INPUT, or NULL. Lengths are m, angles rad, forces N, moments N m, in base axes. */
+ * answered by SINEW_BAD_INPUT, or NULL; so is, mostly, an object of another kind or one that was released,
+ * which nobody should count on. A thread that is cancelled (pthread_cancel) ends after the call it is in.
+ * Lengths are m, angles rad, forces N, moments N m, in base axes. */
 #ifndef SINEW_H
 #define SINEW_H
 
@@ -129,7 +131,7 @@ SINEW_C_API int32_t sinew_run(sinew_batch* batch, size_t rows, const sinew_input
 SINEW_C_API void sinew_stop(void* session_or_batch);
 
 SINEW_C_API void sinew_free(void* text);      /* of a text that sinew gave, or NULL */
-SINEW_C_API void sinew_release(void* object); /* of a robot, session or batch, or NULL; once each */
+SINEW_C_API void sinew_release(void* object); /* of a robot, session or batch, or NULL; once */
 
 #ifdef __cplusplus
 }

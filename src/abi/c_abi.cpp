@@ -1,6 +1,8 @@
 /// The C interface over sessions: sinew.h says what it promises.
 #include "sinew.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -23,30 +25,40 @@
 #include "sinew/session.hpp"
 #include "sinew/solve/report.hpp"
 
-/// What `sinew_release` deletes, whatever it is.
+/// What an object is, first in its memory: what is another one, or was released, is mostly noticed by it.
 struct sinew_object {
-  sinew_object() = default;
+  enum class Mark : std::uint64_t {  // any numbers that memory seldom has
+    robot = 0x9d3a6f51c27be401,
+    session = 0x9d3a6f51c27be402,
+    batch = 0x9d3a6f51c27be403,
+    released = 0x9d3a6f51c27be400
+  };
+  volatile Mark mark;  ///< volatile: what is written to it at last is written, though nobody may read it
+  explicit sinew_object(Mark own) : mark(own) {}
   sinew_object(const sinew_object&) = delete;
   sinew_object& operator=(const sinew_object&) = delete;
-  virtual ~sinew_object() = default;
-  virtual void stop() {}
+  ~sinew_object() { mark = Mark::released; }
 };
 
 struct sinew_robot : sinew_object {
+  static constexpr Mark own_mark = Mark::robot;
   explicit sinew_robot(sinew::Document text)
-      : document(std::make_shared<const sinew::Document>(std::move(text))) {}
+      : sinew_object(own_mark),
+        document(std::make_shared<const sinew::Document>(std::move(text))) {}
   std::shared_ptr<const sinew::Document> document;
 };
 
 struct sinew_session : sinew_object {
-  explicit sinew_session(const sinew_robot& robot) : session(sinew::Session::open(*robot.document).value()) {
+  static constexpr Mark own_mark = Mark::session;
+  explicit sinew_session(const sinew_robot& robot)
+      : sinew_object(own_mark),
+        session(sinew::Session::open(*robot.document).value()) {
     session.stop_on(sinew::StopToken(is_to_stop));
     session.progress_to([this](const sinew::QuestionProgress& now) {
       const std::scoped_lock lock(guard);
       so_far = now;
     });
   }
-  void stop() override { is_to_stop = true; }
   /// Of the question that is answered now, if one is; from any thread.
   std::string progress() {
     const std::scoped_lock lock(guard);
@@ -77,14 +89,47 @@ struct BusySession {
 };
 
 struct sinew_batch : sinew_object {
-  explicit sinew_batch(sinew::Batch prepared) : batch(std::move(prepared)) {}
-  void stop() override { is_to_stop = true; }
+  static constexpr Mark own_mark = Mark::batch;
+  explicit sinew_batch(sinew::Batch prepared) : sinew_object(own_mark), batch(std::move(prepared)) {}
   sinew::Batch batch;
   std::atomic<bool> is_to_stop = false;
   std::atomic<int> running = 0;
 };
 
 namespace {
+
+template <class Object>
+bool is_one(const Object* object) {
+  return object && object->mark == Object::own_mark;
+}
+/// Calls `use` with what an object is; not at all with what is none.
+template <class Use>
+void with(void* object, const Use& use) {
+  if (!object) return;
+  switch (static_cast<sinew_object*>(object)->mark) {
+    case sinew_object::Mark::robot:
+      return use(static_cast<sinew_robot*>(object));
+    case sinew_object::Mark::session:
+      return use(static_cast<sinew_session*>(object));
+    case sinew_object::Mark::batch:
+      return use(static_cast<sinew_batch*>(object));
+    case sinew_object::Mark::released:
+      return;
+  }
+}
+
+/// While it lives the thread is not cancelled: that would unwind it through functions that end the process
+/// then. It is cancelled at the next chance after that.
+class WithoutCancellation {
+ public:
+  WithoutCancellation() { pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before_); }
+  WithoutCancellation(const WithoutCancellation&) = delete;
+  WithoutCancellation& operator=(const WithoutCancellation&) = delete;
+  ~WithoutCancellation() { pthread_setcancelstate(before_, nullptr); }
+
+ private:
+  int before_ = PTHREAD_CANCEL_ENABLE;
+};
 
 /// A copy of a text for whoever called; null where there is no memory.
 char* given(std::string_view text) noexcept {
@@ -111,6 +156,7 @@ sinew::Expected<std::unique_ptr<sinew_robot>> opened(std::string_view source, st
 /// Calls `use(why)`, whatever it throws; a text in `why` goes to whoever called.
 template <class Use>
 std::int32_t guarded(char** error, const Use& use) noexcept {
+  const WithoutCancellation whole;
   if (error) *error = nullptr;
   const auto say = [&](std::string_view why) {
     if (error && !why.empty()) *error = given(why);
@@ -166,7 +212,8 @@ std::int32_t sinew_open(const char* source, std::size_t size, std::int32_t kind,
 }
 
 sinew_session* sinew_session_new(const sinew_robot* robot) {
-  if (!robot) return nullptr;
+  if (!is_one(robot)) return nullptr;
+  const WithoutCancellation whole;
   try {
     return new sinew_session(*robot);
   } catch (const std::exception&) {
@@ -176,7 +223,8 @@ sinew_session* sinew_session_new(const sinew_robot* robot) {
 
 char* sinew_ask(sinew_session* session, const char* question, std::size_t size, std::size_t* length) {
   if (length) *length = 0;
-  if (!session || !question) return nullptr;
+  if (!is_one(session) || !question) return nullptr;
+  const WithoutCancellation whole;
   const auto answer = [&](std::string_view text) {
     char* copy = given(text);
     if (copy && length) *length = text.size();
@@ -199,8 +247,8 @@ std::int32_t sinew_prepare(const sinew_robot* robot, const char* question, std::
                            sinew_batch** batch, char** error) {
   if (batch) *batch = nullptr;
   return guarded(error, [&](std::string& why) {
-    if (!robot || !question || !batch) {
-      why = "robot, question and batch must not be NULL";
+    if (!is_one(robot) || !question || !batch) {
+      why = "robot, question and batch must not be NULL, and robot one that is open";
       return SINEW_BAD_INPUT;
     }
     const auto asked = sinew::parse_json({question, size}, "query");
@@ -215,7 +263,8 @@ std::int32_t sinew_prepare(const sinew_robot* robot, const char* question, std::
 }
 
 char* sinew_fields(const sinew_batch* batch) {
-  if (!batch) return nullptr;
+  if (!is_one(batch)) return nullptr;
+  const WithoutCancellation whole;
   try {
     const auto fields = [](std::span<const sinew::Batch::Field> all) {
       nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -275,8 +324,8 @@ std::int32_t sinew_run(sinew_batch* batch, std::size_t rows, const sinew_input* 
                        const sinew_output* outputs, std::uint8_t* statuses, std::int32_t threads,
                        char** error) {
   return guarded(error, [&](std::string& why) {
-    if (!batch || !inputs || !outputs) {
-      why = "batch, inputs and outputs must not be NULL";
+    if (!is_one(batch) || !inputs || !outputs) {
+      why = "batch, inputs and outputs must not be NULL, and batch one that was prepared";
       return SINEW_BAD_INPUT;
     }
     std::array<std::byte, 1024> room;  // of a few fields, so that a row by itself allocates nothing
@@ -309,9 +358,14 @@ std::int32_t sinew_run(sinew_batch* batch, std::size_t rows, const sinew_input* 
 }
 
 void sinew_stop(void* object) {
-  if (object) static_cast<sinew_object*>(object)->stop();
+  with(object, [](auto* one) {
+    if constexpr (requires { one->is_to_stop; }) one->is_to_stop = true;
+  });
 }
 
 void sinew_free(void* text) { std::free(text); }
 
-void sinew_release(void* object) { delete static_cast<sinew_object*>(object); }
+void sinew_release(void* object) {
+  const WithoutCancellation whole;
+  with(object, [](auto* one) { delete one; });
+}

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <pthread.h>
+
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -117,6 +120,30 @@ TEST(CAbi, TakesNothingForAnything) {
   for (const std::string_view question :
        {""sv, "{"sv, "[]"sv, "null"sv, "\0"sv, "{\"query\": \"\xff\"}"sv, "{\"query\":\0}"sv})
     EXPECT_TRUE(Json::parse(asked(session, question)).contains("error")) << question;
+  sinew_release(session);
+  sinew_release(robot);
+}
+
+/// Through pointers to anything, as of languages without types.
+TEST(CAbi, NoticesObjectsOfAnotherKind) {
+  sinew_robot* robot = opened("3-rfr");
+  sinew_session* session = sinew_session_new(robot);
+  void *any_robot = robot, *any_session = session;
+  EXPECT_EQ(sinew_ask(static_cast<sinew_session*>(any_robot), "{}", 2, nullptr), nullptr);
+  EXPECT_EQ(sinew_session_new(static_cast<sinew_robot*>(any_session)), nullptr);
+  EXPECT_EQ(sinew_fields(static_cast<sinew_batch*>(any_session)), nullptr);
+  char* error = nullptr;
+  const sinew_input in{};
+  const sinew_output out{};
+  EXPECT_EQ(sinew_run(static_cast<sinew_batch*>(any_session), 0, &in, &out, nullptr, 1, &error),
+            SINEW_BAD_INPUT);
+  EXPECT_NE(std::string_view(error).find("batch"), std::string_view::npos) << error;
+  sinew_free(error);
+  sinew_stop(robot);  // nothing of it can be stopped
+  std::uint64_t nothing[64] = {};
+  sinew_stop(nothing);
+  sinew_release(nothing);
+  EXPECT_EQ(sinew_ask(reinterpret_cast<sinew_session*>(nothing), "{}", 2, nullptr), nullptr);
   sinew_release(session);
   sinew_release(robot);
 }
@@ -397,6 +424,27 @@ TEST(CAbi, PreparesNothingOfNothing) {
   EXPECT_EQ(sinew_run(rows.batch, 1, &in, &out, nullptr, 0, &error), SINEW_BAD_INPUT);
   sinew_free(error);
   EXPECT_EQ(sinew_run(rows.batch, 0, &in, &out, nullptr, 0, nullptr), SINEW_OK);
+}
+
+/// A thread is cancelled while threads of its own compute, some of them longer than itself.
+TEST(CAbi, CancelsAThreadAfterItsRun) {
+  Rows rows("3pfs-g2", R"({"query": "forward", "inputs": ["$a", 0.42, 0.42]})");
+  constexpr std::size_t many = 20000;
+  rows.in.assign(many, 0.41);
+  for (int trial = 0; trial < 8; ++trial) {
+    std::atomic<bool> runs = false, is_over = false;
+    std::thread runner([&] {
+      runs = true;
+      rows.run(many, {1}, {3, 4, 1}, 8);
+      is_over = true;
+      for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+    while (!runs) std::this_thread::yield();
+    pthread_cancel(runner.native_handle());
+    runner.join();
+    EXPECT_TRUE(is_over);
+    EXPECT_EQ(std::ranges::count(rows.statuses, 7), static_cast<std::ptrdiff_t>(many));
+  }
 }
 
 TEST(CAbi, StopsRows) {
