@@ -235,22 +235,29 @@ class CurveWriter {
     return false;
   }
 
-  /// The curves that leave the first one there.
+  /// The curves that leave the first one there. Where that is to stop, one that has not left it stands for
+  /// those that were not looked for.
   void leave(Branching& one, std::vector<Curve>& curves) {
     std::vector<Vec<double, N>> begun;
+    Curve curve;
+    curve.from_curve = 0;
+    curve.from_point = one.point;
     for (const Step& direction : one.directions) {
-      if (curves.size() >= max_curves || stop_.stop_requested()) return;
+      if (curves.size() >= max_curves) return;
+      if (stop_.stop_requested()) {
+        curve.points.push_back(curves[0].points[static_cast<std::size_t>(one.point)]);
+        curve.end = problem_.end_of(CurveStop::stopped);
+        curves.push_back(std::move(curve));
+        return;
+      }
       if (!step_aside(one.place, direction)) continue;
       const Vec<double, N> way = problem_.way_from(one.place.state);
       constexpr double same = 0.95;  // cosine; by symmetry they are 60 degrees apart or more
       if (std::ranges::any_of(begun, [&](const auto& other) { return dot(other, way) > same; })) continue;
       begun.push_back(way);
-      Curve curve;
-      curve.from_curve = 0;
-      curve.from_point = one.point;
-      write(curve, CurveMark::none);
-      follow(curve, false);
-      curves.push_back(std::move(curve));
+      curves.push_back(curve);
+      write(curves.back(), CurveMark::none);
+      follow(curves.back(), false);
     }
   }
 

@@ -264,6 +264,28 @@ TEST(Curves, StopOnRequestAndAtTheirBounds) {
   EXPECT_GT(short_of.parameter, 0);
 }
 
+std::atomic<bool> asked_at_the_end;
+Equations<2> asking_at_the_end(const Two& x, double l) {
+  if (l >= 1) asked_at_the_end = true;
+  return pitchfork(x, l);
+}
+
+/// The first curve is whole then: one that has not left it tells that others were not looked for.
+TEST(Curves, StopBetweenTwoCurvesAsWell) {
+  const CurveRange range{0, 1, 500, false, true};
+  const auto all = curves_of(Problem<2>(pitchfork, Two::Zero()), range);
+  asked_at_the_end = false;
+  const auto curves =
+      curves_of(Problem<2>(asking_at_the_end, Two::Zero()), range, StopToken(asked_at_the_end));
+  ASSERT_EQ(curves.size(), 2);
+  EXPECT_EQ(curves[0].end, all[0].end);
+  EXPECT_EQ(curves[0].points.size(), all[0].points.size());
+  EXPECT_EQ(curves[1].end, CurveStop::stopped);
+  ASSERT_EQ(curves[1].points.size(), 1);
+  EXPECT_EQ(curves[1].points[0].event, CurveMark::bifurcation);
+  EXPECT_EQ(curves[1].from_point, all[1].from_point);
+}
+
 TEST(GrowingLoads, SayWhatEndsThem) {
   const Growth fold = grown(Problem<1>(circle, on_circle));
   EXPECT_EQ(fold.end, GrowthEnd::fold);
