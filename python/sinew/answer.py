@@ -96,6 +96,10 @@ class Answer(Record):
 
     __slots__ = ("_text", "_question", "_robot")
 
+    if TYPE_CHECKING:  # a question of many rows has `Columns` in its place, which have the answer to each row by its number
+        def __getitem__(self, key: str | int) -> Any: ...
+        def __iter__(self) -> Iterator[Any]: ...
+
     def __init__(self, robot: Robot, question: str, text: str) -> None:
         self._robot, self._question, self._text = robot, question, text
         self._raw: Any = None

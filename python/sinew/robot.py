@@ -7,7 +7,7 @@ import json
 import os
 import threading
 from collections.abc import Mapping
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Union
 
 from . import _sinew
 from ._errors import InputError, from_text
@@ -16,6 +16,10 @@ from ._progress import Watch
 from ._verbs import Verbs
 from .answer import Answer, Record
 from .identification import Identification, rows_of
+
+if TYPE_CHECKING:
+    from ._view import View
+    from .prepared import Prepared
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Robot"]
 _FILE, _TEXT = 0, 1
@@ -108,7 +112,7 @@ class Robot(Verbs):
             raise from_text(text)
         return (Identification if plain.get("query") == "identify" else Answer)(self, question, text)
 
-    def prepare(self, query: str, *, outputs: Any = None, path: str | None = None, **fields: Any) -> Any:
+    def prepare(self, query: str, *, outputs: Any = None, path: str | None = None, **fields: Any) -> Prepared:
         """A question to be put many times: a function (`Prepared`) of what stands as "$name" in its fields.
 
             forward = robot.prepare("forward", inputs="$lengths")
@@ -192,7 +196,7 @@ class Robot(Verbs):
         from ._html import save
         save(self, answer, path)
 
-    def view(self, *, port: int = 0, open_browser: bool = True) -> Any:
+    def view(self, *, port: int = 0, open_browser: bool = True) -> View:
         """Starts `sinew serve` and opens the viewer: in a notebook in a frame, else in a browser, where `open_browser` is true.
 
         `port` is a number of TCP's, 0 for a free one. Returns a `View`. Raises `InputError` where the command is not there.
