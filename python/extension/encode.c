@@ -222,7 +222,10 @@ static int encode(Encoder* encoder, PyObject* value, const Place* place) {
 
 int encode_question(Text* text, PyObject* query, PyObject* fields, PyObject* ranks) {
   Encoder encoder = {text, ranks};
-  if (add(text, "{\"query\":", 9) < 0 || add_string(text, query, NULL) < 0) return -1;
-  const int code = add_members(&encoder, fields, NULL, 0, 0);
+  PyObject* name = PyUnicode_FromString("query");
+  const Place place = {NULL, name, 0, 1};
+  int code = !name || add(text, "{\"query\":", 9) < 0 ? -1 : encode(&encoder, query, &place);
+  Py_XDECREF(name);
+  if (code == 0) code = add_members(&encoder, fields, NULL, 0, 0);
   return code ? code : add(text, "}", 1);
 }

@@ -48,7 +48,7 @@ class Robot(Verbs):
             self._kind, self._source = _TEXT, json.dumps(_plain(source))
         elif isinstance(source, (str, os.PathLike)):
             self._source = os.fspath(source)
-            self._kind = _TEXT if isinstance(source, str) and "\n" in source else _FILE
+            self._kind = _TEXT if isinstance(source, str) and ("\n" in source or source.lstrip().startswith("{")) else _FILE
         else:
             raise InputError(f"a robot is a name, a path, the text of a robot file, or a dict; found {type(source).__name__}",
                              "wrong_type", "source")
@@ -102,9 +102,11 @@ class Robot(Verbs):
 
         Raises `InputError` where it is not to be read. No solution is no error: see `Answer.status`.
         """
-        if not isinstance(question, str):
+        if not isinstance(question, (str, Mapping)):
+            raise InputError(f"a question is a dict, or JSON text; found {type(question).__name__}", "wrong_type", "query")
+        if isinstance(question, Mapping):
             fields = dict(question)
-            answer: Answer = self._ask(fields.pop("query", ""), fields)
+            answer: Answer = self._ask(fields.pop("query", None), fields)
             return answer
         text = self._session().ask_text(question)
         plain = json.loads(text)

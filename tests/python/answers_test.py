@@ -34,6 +34,12 @@ class Robots(unittest.TestCase):
         self.assertEqual(mine.name, "mine")
         self.assertTrue(mine.forward(configuration=[[0.3, 0.1]]).ok)
 
+    def test_open_from_json_of_one_line(self):
+        spec = {"sinew": 1, "name": "mine", "kind": "serial", "sections": [
+            {"type": "neutral", "segments": 1, "joint": "60 mm", "tendons": {"count": 3, "radius": "4 mm", "angle": 0}}]}
+        for text in (json.dumps(spec), "  " + json.dumps(spec)):
+            self.assertEqual(sinew.load(text).name, "mine")
+
     def test_copies_pickles_and_equality(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "mine.yaml")

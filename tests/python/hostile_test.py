@@ -85,6 +85,12 @@ class Questions(unittest.TestCase):
         for source in ("", "no-such", "/", "/dev/null", "sinew: 1\nlegs: 3\n", {}, {"legs": float("nan")}, {1: 2}):
             with self.assertRaises(sinew.InputError):
                 sinew.load(source)
+        for text in ('{"sinew": 1}', ' {"sinew": 1, "name":', "{", "{no: yaml"):  # a text, if of one line
+            with self.assertRaises(sinew.InputError) as caught:
+                sinew.load(text)
+            self.assertTrue(caught.exception.where.startswith("robot:1:"), text)
+        with self.assertRaisesRegex(sinew.InputError, "no such file"):
+            sinew.load(pathlib.Path('{"error": 1}'))
         for source in (None, 3, b"3-rfr", ["3-rfr"]):
             with self.assertRaisesRegex(sinew.InputError, "a robot is a name"):
                 sinew.load(source)
