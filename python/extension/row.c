@@ -35,7 +35,7 @@ static int read_list(PyObject* list, const Py_ssize_t* shape, Py_ssize_t rank, d
 
 static int read_vector(PyObject* array, const Field* field, double* numbers) {
   Py_buffer buffer;
-  if (field->rank != 1 || !PyObject_CheckBuffer(array)) return 1;
+  if (field->rank != 1 || is_made_in_python(array) || !PyObject_CheckBuffer(array)) return 1;
   if (PyObject_GetBuffer(array, &buffer, PyBUF_STRIDES | PyBUF_FORMAT) < 0) {
     PyErr_Clear();
     return 1;

@@ -31,6 +31,9 @@ typedef struct Text {
  * a dict of dimensions by name (1 where a name is not in it), may be NULL: then every array is one value. */
 int encode_question(Text* text, PyObject* query, PyObject* fields, PyObject* ranks);
 void free_text(Text* text);
+/* Whether an object may have attributes of its own, such as a unit or a mask: its type was made in Python.
+ * NumPy's arrays and numbers, memoryview and array.array are not such. */
+int is_made_in_python(PyObject* value);
 
 /* robot.c: a robot that is open, and sessions. */
 typedef struct {

@@ -63,22 +63,35 @@ def column(value: Any, field: dict[str, Any]) -> Any:
     if np is None:
         from ._views import column as of_buffer
         return of_buffer(value, field, _refuse)
-    if hasattr(value, "units") or hasattr(value, "unit"):
-        raise _refuse(field, "has a unit of its own, which would be lost: convert it to SI and leave the unit out")
-    if np.ma.isMaskedArray(value) and np.ma.is_masked(value):
-        raise _refuse(field, "has masked numbers: fill them")
     try:
         array = np.asarray(value)
     except (ValueError, TypeError, OverflowError):
         raise _refuse(field, "is no array of numbers") from None
     if array.dtype.kind not in "fiu":
         raise _refuse(field, f"has numbers of type {array.dtype}")
+    lost = _lost(value)
+    if lost:
+        raise _refuse(field, lost)
     if array.dtype != np.float64 or not array.dtype.isnative or not array.flags.aligned:
         array = np.require(array, np.float64, "A")
     rank = len(field["shape"])
     if array.ndim not in (rank, rank + 1) or list(array.shape[array.ndim - rank:]) != list(field["shape"]):
         raise _refuse(field, f"has shape {shape(array)}")
     return array
+
+
+def _lost(value: Any) -> str:
+    """What an array of doubles would lose of this, in words; also of one number in lists. Empty: nothing."""
+    np = numpy()
+    if isinstance(value, (list, tuple)):
+        return next(filter(None, map(_lost, value)), "")
+    if type(value) in (float, int, np.ndarray):
+        return ""
+    if isinstance(value, (bool, np.bool_)):
+        return "has numbers of type bool"
+    if hasattr(value, "units") or hasattr(value, "unit"):
+        return "has a unit of its own, which would be lost: convert it to SI and leave the unit out"
+    return "has masked numbers: fill them" if np.ma.is_masked(value) else ""
 
 
 def flat_rows(array: Any) -> Any:

@@ -1,10 +1,21 @@
 """Questions prepared once."""
+import array
+import copy
 import pickle
 import unittest
 
 import numpy as np
 
 import sinew
+from sinew._fields import UNITS
+
+
+class Plain(np.ndarray):
+    pass
+
+
+class Length(np.ndarray):
+    units = "mm"
 
 
 class Prepared(unittest.TestCase):
@@ -26,10 +37,20 @@ class Prepared(unittest.TestCase):
     def test_takes_numbers_of_all_kinds(self):
         wanted = self.forward([0.19, 0.19, 0.19]).x
         for same in ((0.19, 0.19, 0.19), np.full(3, 0.19), np.full(6, 0.19)[::2], [np.float64(0.19)] * 3, np.full(3, 0.19, ">f8"),
-                     memoryview(np.full(3, 0.19))):
+                     memoryview(np.full(3, 0.19)), array.array("d", [0.19] * 3), np.ma.array([0.19] * 3), np.full(3, 0.19).view(Plain)):
             self.assertEqual(self.forward(same).x, wanted)
         self.assertEqual(self.forward(lengths=[0.19, 0.19, 0.19]).x, wanted)
         self.assertEqual(self.forward([np.float32(0.19)] * 3).x, self.forward([float(np.float32(0.19))] * 3).x)
+
+    def test_and_keywords_take_numbers_of_all_sizes(self):
+        for kind in (np.longdouble, np.float16, np.float32):
+            one = kind(0.1875)
+            for same in ([one] * 3, np.full(3, one)):
+                self.assertEqual(self.forward(same).x, self.forward([0.1875] * 3).x)
+                self.assertEqual(self.robot.forward(same).pose.x, self.robot.forward([0.1875] * 3).pose.x)
+            self.assertEqual(self.robot.inverse({"x": kind(0.0), "y": np.int8(0), "phi": one}), self.robot.inverse({"x": 0.0, "y": 0, "phi": 0.1875}))
+        with self.assertRaisesRegex(sinew.InputError, "complex"):
+            self.robot.forward([np.clongdouble(1j), 0.19, 0.19])
 
     def test_takes_rows(self):
         found = self.forward(np.full((5, 3), 0.19))
@@ -50,6 +71,10 @@ class Prepared(unittest.TestCase):
         for wrong, why in (([0.19, 0.19], r"shape \(2,\)"), (0.19, r"shape \(\)"), ("abc", "type <U3"), (None, "object"),
                            ([0.19, 0.19, None], "object"), ([[0.19], [0.19, 0.19], 3], "no array"), ([True] * 3, "bool"),
                            ([1j] * 3, "complex"), ([10**400] * 3, "object"), ({}, "object"), (["0.19 m"] * 3, "<U")):
+            with self.assertRaisesRegex(sinew.InputError, why):
+                self.forward(wrong)
+        for wrong, why in ((np.ma.array([0.19] * 3, mask=[0, 1, 0]), "masked"), ([True, 0.19, 0.19], "bool"), ([np.True_, 0.19, 0.19], "bool"),
+                           (np.full(3, 190).view(Length), "unit"), (np.full((2, 3), 190).view(Length), "unit")):
             with self.assertRaisesRegex(sinew.InputError, why):
                 self.forward(wrong)
         with self.assertRaisesRegex(sinew.InputError, "inputs"):
