@@ -123,7 +123,7 @@ class Verbs:
                 1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
@@ -263,7 +263,7 @@ class Verbs:
             tension_limit (number) [N]: most that a tendon may pull
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
@@ -408,7 +408,7 @@ class Verbs:
                 1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
@@ -567,7 +567,7 @@ class Verbs:
             force_alone (bool): the wrench that is sensed has no moment; default true
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
@@ -730,7 +730,7 @@ class Verbs:
             branches (bool): curves that leave it at bifurcations are followed, too
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
@@ -792,7 +792,7 @@ class Verbs:
             envelope (str): bends that a section is allowed: square, disc or actuator; default its limit
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
@@ -934,7 +934,7 @@ class Verbs:
                 1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it

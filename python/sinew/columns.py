@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _arrays
 from ._errors import InputError
-from ._fields import RANKS
+from ._fields import FIELDS, KINDS, RANKS
 from .answer import Answer, Record
 
 if TYPE_CHECKING:
@@ -167,22 +167,46 @@ def _restored(prepared: Prepared, *rest: Any) -> Columns:
     return Columns(prepared, *rest)
 
 
-def ask_columns(robot: Robot, query: str, fields: dict[str, Any]) -> Columns:
+def ask_columns(robot: Robot, query: str, fields: dict[str, Any], options: Mapping[str, Any]) -> Columns:
     """The question of a verb's keywords, arrays of which hold columns. Questions that differ in arrays alone are prepared once."""
     from .prepared import Prepared
     fields = {name: value for name, value in fields.items() if value is not None}
-    options = {name: fields.pop(name, None) for name in ("outputs", "path", "threads", "out")}
+    outputs, path = options.get("outputs"), options.get("path")
     columns: dict[str, Any] = {}
     pattern = _with_names(robot, fields, "", "", columns)
-    key = (query, repr(pattern), repr(options["outputs"]), options["path"])
+    key = repr((query, pattern, outputs, path))
     prepared = robot._planned.get(key)
     if prepared is None:
-        prepared = Prepared(robot, query, pattern, options["outputs"], options["path"])
+        try:
+            prepared = Prepared(robot, query, pattern, outputs, path)
+        except InputError as error:
+            raise _of_one_value(error, query, columns) from None
         for old in list(robot._planned)[:-_MOST_PLANS]:  # the list is of one moment, whatever other threads do
             robot._planned.pop(old, None)
         robot._planned[key] = prepared
-    answer: Columns = prepared._columns((), {**columns, "threads": options["threads"], "out": options["out"]}, is_many=True)
+    answer: Columns = prepared._columns((), {**columns, "threads": options.get("threads"), "out": options.get("out")}, is_many=True)
     return answer
+
+
+def _of_one_value(error: InputError, query: str, columns: Mapping[str, Any]) -> InputError:
+    """Where a field is not to be read as a column the user's array is to be named, not the name that stood for it."""
+    for place, array in columns.items():
+        if f"{place} = ${place};" in error.message:
+            return InputError(f"{place} has shape {_arrays.shape(array)}, rows of values; {query} takes one value of it", "wrong_length", place)
+    return error
+
+
+def _shapes_of(key: str) -> str:
+    """What a field takes: arrays of so many dimensions, or none."""
+    if _is_no_array(key):
+        return f"a {KINDS[FIELDS[key].kind].text}"
+    rank = RANKS.get(key, 1)
+    one = f"an array of {rank} dimension{'s' if rank > 1 else ''} for one value" if rank else "one number"
+    return f"{one}, or an array of {rank + 1} dimension{'s' if rank else ''} for a row each"
+
+
+def _is_no_array(key: str) -> bool:
+    return key in FIELDS and FIELDS[key].kind in ("pose", "poses", "map")
 
 
 def _with_names(robot: Robot, value: Any, place: str, key: str, columns: dict[str, Any]) -> Any:
@@ -191,9 +215,8 @@ def _with_names(robot: Robot, value: Any, place: str, key: str, columns: dict[st
     if isinstance(dimensions, int):
         if dimensions <= RANKS.get(key, 1):
             return value
-        if dimensions != RANKS.get(key, 1) + 1:
-            raise InputError(f"{place} has shape {_arrays.shape(value)}; give an array of {RANKS.get(key, 1)} dimensions for one "
-                             f"value, of one more for a row each", "wrong_length", place)
+        if dimensions != RANKS.get(key, 1) + 1 or _is_no_array(key):
+            raise InputError(f"{place} has shape {_arrays.shape(value)}; give {_shapes_of(key)}", "wrong_length", place)
         columns[place] = _arrays.flat_rows(value) if robot._is_of_tendons(key) else value
         return "$" + place
     if isinstance(value, Mapping):

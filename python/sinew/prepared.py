@@ -1,7 +1,8 @@
 """Questions prepared once and put many times."""
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import operator
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _arrays, _sinew
@@ -60,7 +61,7 @@ class Prepared(_sinew.Question):
 
     Arguments are in the order in which the names stand in the question, or by name. Numbers, lists or (k,) arrays are
     one row and give a `Row`; arrays (n,) or (n, k) are n rows and give `Columns`. Numbers are SI and radians; `inputs` says
-    units and shapes. `threads` and `out` are as of the robot's methods. Raises `InputError` where an array is not to be read,
+    units and shapes. `threads` (of n rows; one row is computed by one) and `out` are as of the robot's methods. Raises `InputError` where an array is not to be read,
     `TypeError` where arguments are missing or not known. Any number of threads may call it; `stop()` ends what others compute.
     """
 
@@ -107,7 +108,7 @@ class Prepared(_sinew.Question):
     def _columns(self, args: tuple[Any, ...], named: dict[str, Any], is_many: bool = False) -> Any:
         """What is not plainly one row of numbers."""
         named = dict(named)
-        threads, out = named.pop("threads", None), named.pop("out", None)
+        threads, out = _count_of_threads(named.pop("threads", None)), named.pop("out", None)
         fields = self.layout["inputs"]
         values = self._arguments(args, named)
         columns = [_arrays.column(value, field) for value, field in zip(values, fields)]
@@ -133,15 +134,12 @@ class Prepared(_sinew.Question):
             raise TypeError(f"{', '.join(missing)} missing: {known}")
         return [given[name] for name in names]
 
-    def _run(self, columns: list[Any], ranks: list[int], threads: Any, out: Any) -> Columns:
+    def _run(self, columns: list[Any], ranks: list[int], threads: int, out: Any) -> Columns:
         sizes = {len(array) for array, rank in zip(columns, ranks) if rank}
         if len(sizes) > 1:
             told = ", ".join(f"{field['name']} {_arrays.shape(array)}" for array, field in zip(columns, self.layout["inputs"]))
             raise InputError(f"arrays of different lengths: {told}; give as many rows of each", "wrong_length", self.query)
         rows = sizes.pop() if sizes else 1
-        threads = 0 if threads is None else threads
-        if not isinstance(threads, int) or not 0 <= threads < 2**31:
-            raise InputError(f"threads = {threads!r}; give a number, 0 for as many as there are cores", "out_of_range", "threads")
         inputs = [array if rank else _arrays.repeated(array, rows) for array, rank in zip(columns, ranks)]
         outputs = _arrays.outputs(self.layout["outputs"], rows, out, inputs)
         status = _arrays.bytes_of(rows)
@@ -149,6 +147,16 @@ class Prepared(_sinew.Question):
         if said and said.startswith('{"error"') and _arrays.counts(status) == [(Status.bad_input, rows)]:
             raise from_text(said)  # no row is input: it is the question that is wrong
         return Columns(self, inputs, outputs, status, said)
+
+
+def _count_of_threads(threads: Any) -> int:
+    try:
+        count = 0 if threads is None else operator.index(threads)
+    except TypeError:
+        count = -1
+    if not 0 <= count < 2**31:
+        raise InputError(f"threads = {threads!r}; give a whole number, 0 for as many as there are cores", "out_of_range", "threads")
+    return count
 
 
 def _named(outputs: Any) -> Mapping[str, str]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 from . import _sinew
 from ._errors import InputError, from_text
-from ._fields import RANKS
+from ._fields import BATCH, RANKS, SINGLE
 from ._progress import Watch
 from ._verbs import Verbs
 from .answer import Answer, Record
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Robot"]
 _FILE, _TEXT = 0, 1
+_OF_ROWS = frozenset(BATCH)
 
 
 class Robot(Verbs):
@@ -72,7 +73,11 @@ class Robot(Verbs):
             session = self._local.session = self._handle.session()
         return self._handle.session() if session.is_busy else session
 
-    def _ask(self, query: str, fields: dict[str, Any]) -> Any:
+    def _ask(self, query: Any, fields: dict[str, Any]) -> Any:
+        options: dict[str, Any] = {}
+        if query not in SINGLE and not _OF_ROWS.isdisjoint(fields):  # taken out unread: `out` may hold anything
+            options = {name: value for name, value in fields.items() if name in _OF_ROWS and value is not None}
+            fields = {name: value for name, value in fields.items() if name not in _OF_ROWS}
         if self._settings:
             fields = {**fields, "set": {**self._settings, **(fields.get("set") or {})}}
         for name in ("changes", "tensions"):
@@ -90,7 +95,9 @@ class Robot(Verbs):
             asked = session.ask(query, fields, RANKS)
         if asked is None:
             from .columns import ask_columns
-            return ask_columns(self, query, fields)
+            return ask_columns(self, query, fields, options)
+        if options:
+            raise _only_of_rows(list(options))
         question, text = asked
         if text.startswith('{"error"'):
             raise from_text(text, _hint_of_rows(fields))
@@ -238,6 +245,12 @@ def robots() -> list[str]:
     """Names of the robots that come with sinew, for `load`."""
     folder = importlib.resources.files("sinew") / "robots"
     return sorted(entry.name[:-len(".yaml")] for entry in folder.iterdir() if entry.name.endswith(".yaml"))
+
+
+def _only_of_rows(names: list[str]) -> InputError:
+    what = "is for questions" if len(names) == 1 else "are for questions"
+    return InputError(f"{', '.join(names)} {what} of many rows, and this is one: give a field as an array of one dimension more, a row each, "
+                      f"or leave {'it' if len(names) == 1 else 'them'} out", "unknown_key", names[0])
 
 
 def _hint_of_rows(fields: Mapping[str, Any]) -> str:

@@ -1,4 +1,5 @@
 """Arrays in, arrays out."""
+import array
 import json
 import pickle
 import tracemalloc
@@ -169,6 +170,25 @@ class Columns(unittest.TestCase):
         whole = np.zeros((8, 5))
         self.robot.forward(inputs=inputs, outputs={"phi": "pose.phi"}, out=whole[:, 2])
         self.assertTrue((whole[:, 2] != 0).any() and not whole[:, [0, 1, 3, 4]].any())
+
+    def test_keywords_of_many_rows_stand_anywhere(self):
+        """`out` is no part of the question, whatever is in it."""
+        inputs, wanted = rows(5), ["residual"]
+        for fields in ({"out": np.full(5, np.nan), "inputs": inputs, "outputs": wanted}, {"threads": 1, "out": np.full(5, np.nan),
+                       "outputs": wanted, "inputs": inputs}):
+            out = fields["out"]
+            self.assertIs(self.robot.forward(**fields).residual, out)
+            self.assertFalse(np.isnan(out).any())
+        out = np.full(5, np.nan)
+        self.assertIs(self.robot.forward(inputs, outputs=wanted, out=out).residual, out)
+
+    def test_keywords_of_many_rows_are_not_of_one(self):
+        for name, value in (("threads", 1), ("path", "continue"), ("outputs", ["pose.x"]), ("out", np.full(1, np.nan))):
+            with self.assertRaisesRegex(sinew.InputError, f"{name} is for questions of many rows"):
+                self.robot.forward([0.19] * 3, **{name: value})
+        self.assertTrue(self.robot.forward([0.19] * 3, threads=None).ok)
+        with self.assertRaisesRegex(sinew.InputError, 'unknown key "threads"'):
+            self.robot.describe(threads=1)
 
     def test_out_that_does_not_fit_is_refused(self):
         inputs = rows(8)

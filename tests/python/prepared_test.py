@@ -105,6 +105,13 @@ class Prepared(unittest.TestCase):
         changed = self.robot.set({"legs[0].link.length": "180 mm"})
         self.assertNotEqual(changed.prepare("forward", inputs="$l")([0.18, 0.19, 0.188]).x, self.forward([0.18, 0.19, 0.188]).x)
 
+    def test_threads_are_a_whole_number(self):
+        for call in (lambda: self.forward([0.19] * 3, threads="x"), lambda: self.forward(np.full((5, 3), 0.19), threads=1.5)):
+            with self.assertRaisesRegex(sinew.InputError, "threads = .* give a whole number"):
+                call()
+        self.assertTrue(self.forward([0.19] * 3, threads=1).ok)
+        self.assertTrue(self.forward(np.full((5, 3), 0.19), threads=np.int64(2)).ok.all())
+
     def test_follows_a_path(self):
         robot = sinew.load("3pfs-g2")
         inputs = np.linspace([0.44, 0.42, 0.41], [0.42, 0.42, 0.42], 50)
@@ -118,6 +125,7 @@ class Prepared(unittest.TestCase):
         self.assertEqual(again([0.19, 0.19, 0.19]).x, self.forward([0.19, 0.19, 0.19]).x)
         self.assertIn("lengths (3,)", repr(again))
         self.assertEqual(again.inputs[0]["unit"], "m")
+
 
 
 if __name__ == "__main__":
