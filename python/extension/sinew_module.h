@@ -69,6 +69,10 @@ sinew_batch* take_batch(Question* question, int* slot); /* NULL with an exceptio
 void put_batch(Question* question, sinew_batch* batch, int slot);
 int prepare_rows(void); /* row.c, as the next */
 PyObject* call_question(PyObject* self, PyObject* args, PyObject* keywords);
+PyObject* restore_row(PyObject* self, PyObject* args); /* of what Row._state gives */
+
+/* overlap.c */
+PyObject* arrays_overlap(PyObject* module, PyObject* const* args, Py_ssize_t count);
 
 /* interrupt.c: Ctrl-C while the library computes. Without effect but in Python's main thread. */
 typedef struct {

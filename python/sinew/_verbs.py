@@ -15,7 +15,7 @@ _BATCH_HELP = (
     "outputs (dict or list of str): what comes out, as of `Robot.prepare`",
     'path (str): "continue", as of `Robot.prepare`',
     "threads (int): default all cores; the bytes do not depend on it",
-    "out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name")
+    "out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the answer's, by name")
 _PROGRESS_HELP = (
     "progress (function or bool): told, from a thread of its own, how far the fit is: a record of `part` (str), `steps` (int) of it and `error`, the root mean square "
     "distance so far [m]; what it raises stops the fit and is raised. True: a line on stderr, the default where that is a terminal; False: nothing",)

@@ -127,7 +127,8 @@ class Verbs:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
@@ -267,7 +268,8 @@ class Verbs:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             inputs: (k,) [m, rad], in leg order
@@ -412,7 +414,8 @@ class Verbs:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
@@ -571,7 +574,8 @@ class Verbs:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
@@ -734,7 +738,8 @@ class Verbs:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             rows: list of one record a pose: pose, inputs (k,) [m, rad], curvature (legs,) [1/m],
@@ -796,7 +801,8 @@ class Verbs:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             class_, word, advice: str: exact, indeterminate, inconsistent or unreachable; the same for an
@@ -938,7 +944,8 @@ class Verbs:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and

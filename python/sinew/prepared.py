@@ -143,7 +143,10 @@ class Prepared(_sinew.Question):
         inputs = [array if rank else _arrays.repeated(array, rows) for array, rank in zip(columns, ranks)]
         outputs = _arrays.outputs(self.layout["outputs"], rows, out, inputs)
         status = _arrays.bytes_of(rows)
-        said = self.run(rows, [_arrays.as_it_lies(array) for array in inputs], list(outputs.values()), status, threads)
+        filled = [_arrays.to_be_filled(array) for array in outputs.values()]
+        said = self.run(rows, [_arrays.as_it_lies(array) for array in inputs], filled, status, threads)
+        for array, numbers in zip(outputs.values(), filled):
+            _arrays.fill(array, numbers)
         if said and said.startswith('{"error"') and _arrays.counts(status) == [(Status.bad_input, rows)]:
             raise from_text(said)  # no row is input: it is the question that is wrong
         return Columns(self, inputs, outputs, status, said)

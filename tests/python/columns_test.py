@@ -190,6 +190,33 @@ class Columns(unittest.TestCase):
         with self.assertRaisesRegex(sinew.InputError, 'unknown key "threads"'):
             self.robot.describe(threads=1)
 
+    def test_out_has_any_strides(self):
+        speed = self.robot.prepare("velocity", pose={"x": "$x", "y": 0, "phi": 0}, outputs=["J"])
+        x = np.linspace(0, 0.02, 5)
+        wanted = speed(x).J
+        wide = np.zeros((5, 6, 6))
+        for out in (np.zeros((5, 3, 3), order="F"), np.zeros((3, 3, 5)).T, np.zeros((5, 3, 3)).transpose(0, 2, 1), wide[:, ::2, ::2], wide[::-1, 1::2, ::-2]):
+            self.assertIs(speed(x, out=out).J, out)
+            np.testing.assert_array_equal(out, wanted)
+
+    def test_columns_of_one_table_may_be_in_and_out(self):
+        table = np.zeros((5, 4))
+        table[:, :3] = rows(5)
+        wanted = self.robot.forward(table[:, :3], outputs=["pose.x"]).x
+        self.robot.forward(table[:, :3], outputs=["pose.x"], out=table[:, 3])
+        np.testing.assert_array_equal(table[:, 3], wanted)
+
+    def test_out_of_other_packages_has_a_shape(self):
+        out = array.array("d", [0.0] * 5)
+        found = self.robot.forward(rows(5), outputs=["pose.x"], out=out)
+        self.assertEqual(list(out), list(found.x))
+        self.assertIn("x (5,)", repr(found))
+
+    def test_of_no_rows_of_tendons(self):
+        arm = sinew.load("nottingham-tpcj")
+        for none in (np.zeros((0, 15)), np.zeros((0, 5, 3))):
+            self.assertEqual(arm.forward(changes=none).changes.shape, (0, 15))
+
     def test_out_that_does_not_fit_is_refused(self):
         inputs = rows(8)
         read_only = np.zeros(8)
