@@ -164,10 +164,15 @@ def _count_of_threads(threads: Any) -> int:
 
 def _named(outputs: Any) -> Mapping[str, str]:
     """`["pose.position"]` is `{"position": "pose.position"}`."""
-    if isinstance(outputs, Mapping):
-        return outputs
-    places = [outputs] if isinstance(outputs, str) else list(outputs)
-    return {str(place).rsplit(".", 1)[-1]: place for place in places}
+    if not isinstance(outputs, Iterable):
+        raise InputError(f"outputs: found {type(outputs).__name__}; give a dict of names and places, or a list of places", "wrong_type", "outputs")
+    places: Any = [outputs] if isinstance(outputs, str) else outputs
+    named = places if isinstance(places, Mapping) else {str(place).rsplit(".", 1)[-1]: place for place in places}
+    for name in named:
+        if hasattr(Row, str(name)) or hasattr(Columns, str(name)):
+            raise InputError(f"outputs: answers have a {name!r} of their own; give this one another name, such as \"my_{name}\"",
+                             "ambiguous", f"outputs.{name}")
+    return named
 
 
 def _filled(value: Any, named: Mapping[str, Any], robot: Robot, key: str) -> Any:

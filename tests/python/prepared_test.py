@@ -112,6 +112,18 @@ class Prepared(unittest.TestCase):
         self.assertTrue(self.forward([0.19] * 3, threads=1).ok)
         self.assertTrue(self.forward(np.full((5, 3), 0.19), threads=np.int64(2)).ok.all())
 
+    def test_refuses_names_that_answers_have(self):
+        for outputs in ({"ok": "pose.x"}, {"to_dict": "pose.x"}, {"keys": "pose.x"}, ["pose.x", "robot"]):
+            with self.assertRaisesRegex(sinew.InputError, "of their own; give this one another name"):
+                self.robot.prepare("forward", inputs="$x", outputs=outputs)
+        with self.assertRaisesRegex(sinew.InputError, "found int; give a dict"):
+            self.robot.prepare("forward", inputs="$x", outputs=0)
+
+    def test_names_of_all_answer_fields_are_free(self):
+        for name in UNITS:
+            word = name.rsplit(".", 1)[-1]
+            self.assertFalse(hasattr(sinew.Row, word) or hasattr(sinew.Columns, word), word)
+
     def test_follows_a_path(self):
         robot = sinew.load("3pfs-g2")
         inputs = np.linspace([0.44, 0.42, 0.41], [0.42, 0.42, 0.42], 50)
