@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import enum
 import json
+import operator
 from collections.abc import Iterator, KeysView, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -51,7 +52,8 @@ class Columns(Answer):
     """Answers to n rows: of each field an array (n, ...), as attributes and as of a dict; SI and radians, base axes.
 
     `ok` is an array of n booleans, `status` one of n numbers of `Status`; numbers that a row does not have are NaN.
-    `columns[i]` is the whole answer to one row.
+    `columns[i]` is the whole answer to row i, asked when it is wanted: inputs are the caller's arrays, which are read again then.
+    With `path="continue"` it begins at the row's own solution; where that is not known, `InputError` says so.
     """
 
     __slots__ = ("_prepared", "_inputs", "_values", "_status", "_said")
@@ -66,8 +68,32 @@ class Columns(Answer):
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):
             return self._values[key]
-        row = range(len(self))[key]  # an IndexError where there is no such row
-        return self._prepared.answer([_arrays.row_of(column, row) for column in self._inputs])
+        try:
+            row = range(len(self))[operator.index(key)]  # an IndexError where there is no such row
+        except TypeError:
+            raise TypeError(f"answers[i] is the answer to one row, i a whole number; found {type(key).__name__}: "
+                            "of several rows take parts of the arrays") from None
+        values = [_arrays.row_of(column, row) for column in self._inputs]
+        return self._on_the_path(row, values) if self._prepared._is_path else self._prepared.answer(values)
+
+    def _on_the_path(self, row: int, values: list[Any]) -> Answer:
+        """The answer to a row that began where the one before ended: it begins at the row's own solution."""
+        word = Status(int(self._status[row])).name
+        start = self._start_of(row)
+        answer = self._prepared.answer(values, start)
+        if answer.status != word:
+            raise InputError(f"row {row} is {word}, after the rows before it; asked alone it is {answer.status}: take it from the arrays",
+                             "wrong_array", "path")
+        return answer
+
+    def _start_of(self, row: int) -> dict[str, Any] | None:
+        """The pose of this row; where it is not solved that of the last one before it that is. None: there is none before it."""
+        names = self._prepared._pose_names
+        if names is None:
+            raise InputError(f'with path="continue" row {row} began where the one before it ended, and asked alone it may end elsewhere: take it '
+                             "from the arrays; or, of a pose found from inputs, let the whole pose be among the outputs", "wrong_array", "path")
+        solved = next((before for before in range(row, -1, -1) if self._status[before] == Status.converged), None)
+        return None if solved is None else {field: _arrays.row_of(self._values[name], solved) for field, name in names.items()}
 
     def __iter__(self) -> Iterator[Any]:
         return (self[row] for row in range(len(self)))

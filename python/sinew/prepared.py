@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _arrays, _sinew
 from ._errors import InputError, from_text
+from ._fields import VERBS
 from .columns import Columns, Status
 
 if TYPE_CHECKING:
@@ -99,11 +100,31 @@ class Prepared(_sinew.Question):
         """What comes out, a dict each: `name`, `unit`, `rank`, and `shape` of one row, a list of numbers: `[]` of a number, `[6, 3]`."""
         return [dict(field) for field in self.layout["outputs"]]
 
-    def answer(self, values: Sequence[Any]) -> Answer:
-        """The whole answer to one row: `values` in the order of `inputs`, in their shapes, SI and radians."""
+    def answer(self, values: Sequence[Any], start: Any = None) -> Answer:
+        """The whole answer to one row: `values` in the order of `inputs`, in their shapes, SI and radians. A `start` is taken in
+        place of the question's.
+        """
         named = {field["name"]: value for field, value in zip(self.layout["inputs"], values)}
-        answer: Answer = self.robot._ask(self.query, _filled(self._made_of[2], named, self.robot, ""))
+        fields = _filled(self._made_of[2], named, self.robot, "")
+        answer: Answer = self.robot._ask(self.query, fields if start is None else {**fields, "start": start})
         return answer
+
+    @property
+    def _is_path(self) -> bool:
+        return self._made_of[4] == "continue"
+
+    @property
+    def _pose_names(self) -> dict[str, str] | None:
+        """By which names the numbers of a whole pose come out, where it is sought, from inputs: it is a `start` then."""
+        about = self.robot._about()._plain()
+        if about.get("kind") != "parallel" or "start" not in VERBS[self.query].fields or not {"pose", "independent"}.isdisjoint(self._made_of[2]):
+            return None
+        outputs = self._made_of[3]
+        names = [field["name"] for field in self.layout["outputs"]]
+        places = {f"pose.{name}": name for name in names} if outputs is None else {place: name for name, place in _named(outputs).items()}
+        fields = ("x", "y", "phi") if about.get("space") == "planar" else ("position", "quaternion")
+        found = {field: places[f"pose.{field}"] for field in fields if f"pose.{field}" in places}
+        return found if len(found) == len(fields) else None
 
     def _columns(self, args: tuple[Any, ...], named: dict[str, Any], is_many: bool = False) -> Any:
         """What is not plainly one row of numbers."""
