@@ -282,6 +282,7 @@ static PyObject* question_layout(PyObject* self, void* nothing) {
 static PyMethodDef question_methods[] = {
     {"run", (PyCFunction)(void (*)(void))question_run, METH_FASTCALL,
      "run(rows, inputs, outputs, statuses, threads)"},
+    {"_row", restore_row, METH_VARARGS, NULL},
     {"stop", question_stop, METH_NOARGS,
      "Ends what other threads compute by this question; rows not yet computed are `stopped`."},
     {NULL, NULL, 0, NULL}};

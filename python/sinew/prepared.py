@@ -49,6 +49,15 @@ class Row(_sinew.Row):
         """Outputs by name: numbers and arrays of their shape, SI and radians."""
         return {field["name"]: getattr(self, field["name"]) for field in self._question.layout["outputs"]}
 
+    def __copy__(self) -> Row:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Row:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return self._question._row, self._state()
+
     def __repr__(self) -> str:
         values = ", ".join(f"{name}: {value!r}" for name, value in self.to_dict().items())
         return f"<{self._question.query} of {self._question.robot.name}: {self.status} ({values})>"

@@ -138,6 +138,15 @@ class Prepared(unittest.TestCase):
         self.assertIn("lengths (3,)", repr(again))
         self.assertEqual(again.inputs[0]["unit"], "m")
 
+    def test_rows_are_copied_and_pickled(self):
+        row = self.forward([0.19, 0.19, 0.188])
+        self.assertIs(copy.copy(row), row)
+        self.assertIs(copy.deepcopy([row])[0], row)
+        for one in (row, self.forward([0.19, 0.19, 0.3])):
+            again = pickle.loads(pickle.dumps(one))
+            self.assertEqual((repr(again), again.status), (repr(one), one.status))
+        again = pickle.loads(pickle.dumps(row))
+        self.assertEqual((again.x, again.answer), (row.x, row.answer))
 
 
 if __name__ == "__main__":
