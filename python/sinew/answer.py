@@ -170,6 +170,7 @@ class Answer(Record):
 
 
 _WITHOUT = ("indices.", "freedoms.")  # ratios and counts, whose names mean something else elsewhere
+_MIXED = (".growing.", ".shrinking.")  # of several units, of which the table may have none
 _LONG = tuple((f".{name}", unit) for name, unit in UNITS.items() if "." in name)  # other than of their last word
 
 
@@ -178,7 +179,7 @@ def _unit(place: str, name: str) -> str | None:
     words = "." + place.replace("[]", "")
     for end, unit in _LONG:
         if words.endswith(end):
-            return unit or None
+            return unit or (None if end.startswith(_MIXED) else "")
     return UNITS.get(name)
 
 
