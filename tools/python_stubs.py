@@ -39,7 +39,7 @@ def method(name, fields, verbs):
         if index == 1:
             parameters.append("*")
         parameters.append(f"{field}: {fields.KINDS[fields.FIELDS[field].kind].type} | None = None")
-    if name not in verbs.SINGLE:
+    if name not in fields.SINGLE:
         parameters += ["outputs: Mapping[str, str] | Sequence[str] | None = None", "path: str | None = None",
                        "threads: int | None = None", "out: Any = None"]
     if name == "identify":

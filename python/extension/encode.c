@@ -179,6 +179,32 @@ static int refuse_type(PyObject* value, const Place* place) {
   return -1;
 }
 
+int is_made_in_python(PyObject* value) {
+  return !(PyType_GetFlags(Py_TYPE(value)) & Py_TPFLAGS_IMMUTABLETYPE);
+}
+
+static int has(PyObject* value, const char* name) {
+  PyObject* found = PyObject_GetAttrString(value, name);
+  PyErr_Clear();
+  Py_XDECREF(found);
+  return found != NULL;
+}
+
+static int has_unit(PyObject* value) {
+  return is_made_in_python(value) && (has(value, "units") || has(value, "unit")) && !has(value, "to_dict");
+}
+
+/* A number of a type that has no lists, such as NumPy's long double; NULL of a complex one. */
+static PyObject* to_float(PyObject* number) {
+  PyObject* imaginary = PyObject_GetAttrString(number, "imag");
+  PyErr_Clear();
+  const int is_complex = imaginary && PyObject_IsTrue(imaginary) != 0;
+  Py_XDECREF(imaginary);
+  PyObject* found = is_complex || !PyNumber_Check(number) ? NULL : PyNumber_Float(number);
+  if (!found && PyErr_Occurred() && PyErr_ExceptionMatches(PyExc_TypeError)) PyErr_Clear();
+  return found;
+}
+
 /* Arrays, NumPy's numbers, answers: what gives lists, dicts and numbers by a method. */
 static int add_converted(Encoder* encoder, PyObject* value, const Place* place) {
   PyObject* plain = NULL;
@@ -189,6 +215,10 @@ static int add_converted(Encoder* encoder, PyObject* value, const Place* place) 
   }
   Py_XDECREF(dimensions);
   PyErr_Clear();
+  if (has_unit(value))
+    return refuse(place, "wrong_array",
+                  "%U has a unit of its own, which would be lost: convert it to SI and leave the unit out.",
+                  NULL);
   for (const char* const* name = (const char* const[]){"tolist", "to_dict", NULL}; *name && !plain; ++name) {
     PyObject* method = PyObject_GetAttrString(value, *name);
     PyErr_Clear();
@@ -197,8 +227,13 @@ static int add_converted(Encoder* encoder, PyObject* value, const Place* place) 
     if (method && !plain) return -1;
   }
   if (!plain && PySequence_Check(value) && !PyBytes_Check(value)) plain = PySequence_List(value);
-  if (!plain && !PyErr_Occurred() && PyNumber_Check(value)) plain = PyNumber_Float(value);
-  if (!plain) return refuse_type(value, place);
+  if (plain && Py_TYPE(plain) == Py_TYPE(value)) {
+    Py_DECREF(plain);
+    plain = NULL;
+  }
+  if (!plain && !PyErr_Occurred()) plain = to_float(value);
+  if (!plain)
+    return PyErr_Occurred() && !PyErr_ExceptionMatches(PyExc_TypeError) ? -1 : refuse_type(value, place);
   const Place here = {place->outer, place->key, place->index, place->depth + 1};
   const int code = encode(encoder, plain, &here);
   Py_DECREF(plain);
@@ -222,7 +257,10 @@ static int encode(Encoder* encoder, PyObject* value, const Place* place) {
 
 int encode_question(Text* text, PyObject* query, PyObject* fields, PyObject* ranks) {
   Encoder encoder = {text, ranks};
-  if (add(text, "{\"query\":", 9) < 0 || add_string(text, query, NULL) < 0) return -1;
-  const int code = add_members(&encoder, fields, NULL, 0, 0);
+  PyObject* name = PyUnicode_FromString("query");
+  const Place place = {NULL, name, 0, 1};
+  int code = !name || add(text, "{\"query\":", 9) < 0 ? -1 : encode(&encoder, query, &place);
+  Py_XDECREF(name);
+  if (code == 0) code = add_members(&encoder, fields, NULL, 0, 0);
   return code ? code : add(text, "}", 1);
 }

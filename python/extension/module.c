@@ -9,6 +9,8 @@ static PyObject* module_abi(PyObject* module, PyObject* nothing) {
 static PyMethodDef functions[] = {
     {"open", (PyCFunction)(void (*)(void))open_robot, METH_FASTCALL,
      "open(source, kind): 0 a file or a name, 1 a text"},
+    {"overlap", (PyCFunction)(void (*)(void))arrays_overlap, METH_FASTCALL,
+     "overlap(a, b): whether the memory of one begins before that of the other ends"},
     {"abi", module_abi, METH_NOARGS, "Number of the C interface of the library."},
     {NULL, NULL, 0, NULL}};
 

@@ -105,8 +105,8 @@ static PyObject* new_question(PyTypeObject* type, PyObject* args, PyObject* keyw
   PyObject *handle, *query, *fields, *rows;
   if (keywords && PyDict_Size(keywords) > 0)
     return PyErr_Format(PyExc_TypeError, "Question takes no keywords");
-  if (!PyArg_ParseTuple(args, "O!O!O!O!:Question", handle_type, &handle, &PyUnicode_Type, &query,
-                        &PyDict_Type, &fields, &PyType_Type, &rows))
+  if (!PyArg_ParseTuple(args, "O!OO!O!:Question", handle_type, &handle, &query, &PyDict_Type, &fields,
+                        &PyType_Type, &rows))
     return NULL;
   if (!PyType_IsSubtype((PyTypeObject*)rows, row_type))
     return PyErr_Format(PyExc_TypeError, "rows are of type Row");
@@ -282,6 +282,7 @@ static PyObject* question_layout(PyObject* self, void* nothing) {
 static PyMethodDef question_methods[] = {
     {"run", (PyCFunction)(void (*)(void))question_run, METH_FASTCALL,
      "run(rows, inputs, outputs, statuses, threads)"},
+    {"_row", restore_row, METH_VARARGS, NULL},
     {"stop", question_stop, METH_NOARGS,
      "Ends what other threads compute by this question; rows not yet computed are `stopped`."},
     {NULL, NULL, 0, NULL}};

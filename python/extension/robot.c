@@ -109,7 +109,7 @@ static int is_free(Session* self) {
 
 /* ask(query, fields, ranks) -> (question, answer), or None where an array of the fields holds columns. */
 static PyObject* session_ask(PyObject* self, PyObject* const* args, Py_ssize_t count) {
-  if (count != 3 || !PyUnicode_Check(args[0]) || !PyDict_Check(args[1]) || !PyDict_Check(args[2]))
+  if (count != 3 || !PyDict_Check(args[1]) || !PyDict_Check(args[2]))
     return PyErr_Format(PyExc_TypeError, "ask(query, fields, ranks)");
   Text text = {NULL, 0, 0};
   const int code = encode_question(&text, args[0], args[1], args[2]);

@@ -35,7 +35,7 @@ static int read_list(PyObject* list, const Py_ssize_t* shape, Py_ssize_t rank, d
 
 static int read_vector(PyObject* array, const Field* field, double* numbers) {
   Py_buffer buffer;
-  if (field->rank != 1 || !PyObject_CheckBuffer(array)) return 1;
+  if (field->rank != 1 || is_made_in_python(array) || !PyObject_CheckBuffer(array)) return 1;
   if (PyObject_GetBuffer(array, &buffer, PyBUF_STRIDES | PyBUF_FORMAT) < 0) {
     PyErr_Clear();
     return 1;
@@ -112,12 +112,18 @@ static int run_row(Question* self, Row* row) {
   return PyErr_Occurred() ? -1 : 0;
 }
 
+static Row* new_row(Question* question) {
+  PyTypeObject* type = (PyTypeObject*)question->row_type;
+  Row* row = (Row*)((allocfunc)PyType_GetSlot(type, Py_tp_alloc))(
+      type, question->in_numbers + question->out_numbers);
+  if (row) row->question = (Question*)Py_NewRef((PyObject*)question);
+  return row;
+}
+
 PyObject* call_question(PyObject* object, PyObject* args, PyObject* keywords) {
   Question* self = (Question*)object;
-  PyTypeObject* type = (PyTypeObject*)self->row_type;
-  Row* row = (Row*)((allocfunc)PyType_GetSlot(type, Py_tp_alloc))(type, self->in_numbers + self->out_numbers);
+  Row* row = new_row(self);
   if (!row) return NULL;
-  row->question = (Question*)Py_NewRef(object);
   if (read_row(self, args, keywords, row->numbers) == 0) {
     if (run_row(self, row) == 0) return (PyObject*)row;
     Py_DECREF(row);
@@ -200,6 +206,37 @@ static PyObject* row_inputs(PyObject* object, PyObject* nothing) {
   return all;
 }
 
+static size_t bytes_of(const Question* question) {
+  return sizeof(double) * (size_t)(question->in_numbers + question->out_numbers);
+}
+
+/* Status and numbers, for another process. */
+static PyObject* row_state(PyObject* object, PyObject* nothing) {
+  (void)nothing;
+  const Row* self = (Row*)object;
+  PyObject* status = PyLong_FromLong(self->status);
+  const size_t size = self->question ? bytes_of(self->question) : 0;
+  PyObject* numbers = PyBytes_FromStringAndSize((const char*)self->numbers, (Py_ssize_t)size);
+  PyObject* state = status && numbers ? PyTuple_Pack(2, status, numbers) : NULL;
+  Py_XDECREF(status);
+  Py_XDECREF(numbers);
+  return state;
+}
+
+PyObject* restore_row(PyObject* object, PyObject* args) {
+  Question* self = (Question*)object;
+  int status;
+  const char* numbers;
+  Py_ssize_t size;
+  if (!PyArg_ParseTuple(args, "iy#:_row", &status, &numbers, &size)) return NULL;
+  if ((size_t)size != bytes_of(self)) return PyErr_Format(PyExc_ValueError, "a row of another question");
+  Row* row = new_row(self);
+  if (!row) return NULL;
+  row->status = status;
+  memcpy(row->numbers, numbers, (size_t)size);
+  return (PyObject*)row;
+}
+
 int prepare_rows(void) {
   PyObject* arrays = PyImport_ImportModule("sinew._arrays");
   to_array = arrays ? PyObject_GetAttrString(arrays, "to_array") : NULL;
@@ -207,7 +244,9 @@ int prepare_rows(void) {
   return to_array ? 0 : -1;
 }
 
-static PyMethodDef row_methods[] = {{"_inputs", row_inputs, METH_NOARGS, NULL}, {NULL, NULL, 0, NULL}};
+static PyMethodDef row_methods[] = {{"_inputs", row_inputs, METH_NOARGS, NULL},
+                                    {"_state", row_state, METH_NOARGS, NULL},
+                                    {NULL, NULL, 0, NULL}};
 static PyGetSetDef row_fields[] = {{"ok", row_ok, NULL, "Whether the row is solved.", NULL},
                                    {"_code", row_code, NULL, NULL, NULL},
                                    {"_question", row_question, NULL, NULL, NULL},

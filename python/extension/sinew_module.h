@@ -31,6 +31,9 @@ typedef struct Text {
  * a dict of dimensions by name (1 where a name is not in it), may be NULL: then every array is one value. */
 int encode_question(Text* text, PyObject* query, PyObject* fields, PyObject* ranks);
 void free_text(Text* text);
+/* Whether an object may have attributes of its own, such as a unit or a mask: its type was made in Python.
+ * NumPy's arrays and numbers, memoryview and array.array are not such. */
+int is_made_in_python(PyObject* value);
 
 /* robot.c: a robot that is open, and sessions. */
 typedef struct {
@@ -66,6 +69,10 @@ sinew_batch* take_batch(Question* question, int* slot); /* NULL with an exceptio
 void put_batch(Question* question, sinew_batch* batch, int slot);
 int prepare_rows(void); /* row.c, as the next */
 PyObject* call_question(PyObject* self, PyObject* args, PyObject* keywords);
+PyObject* restore_row(PyObject* self, PyObject* args); /* of what Row._state gives */
+
+/* overlap.c */
+PyObject* arrays_overlap(PyObject* module, PyObject* const* args, Py_ssize_t count);
 
 /* interrupt.c: Ctrl-C while the library computes. Without effect but in Python's main thread. */
 typedef struct {

@@ -22,7 +22,7 @@ __all__ = ["Answer", "ByRow", "Columns", "Identification", "InputError", "Parame
 
 def load(source: Source) -> Robot:
     """Opens a robot: by the name of one that comes with sinew (`robots()`), the path of a robot file, the text of one
-    (YAML or JSON of more than one line), or a dict of what a robot file has.
+    (YAML of more than one line, or JSON, which begins with "{"), or a dict of what a robot file has.
 
     Of a dict numbers are SI (lengths [m], angles [rad], forces [N]), or text with a unit ("60 mm"); docs/robot-files.md has
     all that `source` may say. Raises `InputError` with all that is wrong with it, a line each.

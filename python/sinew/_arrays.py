@@ -4,6 +4,7 @@ columns are what has the buffer protocol (array.array, memoryview) and answers h
 from __future__ import annotations
 
 import functools
+import math
 from typing import Any
 
 from ._errors import InputError
@@ -63,16 +64,15 @@ def column(value: Any, field: dict[str, Any]) -> Any:
     if np is None:
         from ._views import column as of_buffer
         return of_buffer(value, field, _refuse)
-    if hasattr(value, "units") or hasattr(value, "unit"):
-        raise _refuse(field, "has a unit of its own, which would be lost: convert it to SI and leave the unit out")
-    if np.ma.isMaskedArray(value) and np.ma.is_masked(value):
-        raise _refuse(field, "has masked numbers: fill them")
     try:
         array = np.asarray(value)
     except (ValueError, TypeError, OverflowError):
         raise _refuse(field, "is no array of numbers") from None
     if array.dtype.kind not in "fiu":
         raise _refuse(field, f"has numbers of type {array.dtype}")
+    lost = _lost(value)
+    if lost:
+        raise _refuse(field, lost)
     if array.dtype != np.float64 or not array.dtype.isnative or not array.flags.aligned:
         array = np.require(array, np.float64, "A")
     rank = len(field["shape"])
@@ -81,9 +81,23 @@ def column(value: Any, field: dict[str, Any]) -> Any:
     return array
 
 
+def _lost(value: Any) -> str:
+    """What an array of doubles would lose of this, in words; also of one number in lists. Empty: nothing."""
+    np = numpy()
+    if isinstance(value, (list, tuple)):
+        return next(filter(None, map(_lost, value)), "")
+    if type(value) in (float, int, np.ndarray):
+        return ""
+    if isinstance(value, (bool, np.bool_)):
+        return "has numbers of type bool"
+    if hasattr(value, "units") or hasattr(value, "unit"):
+        return "has a unit of its own, which would be lost: convert it to SI and leave the unit out"
+    return "has masked numbers: fill them" if np.ma.is_masked(value) else ""
+
+
 def flat_rows(array: Any) -> Any:
     """(n, a, b) as (n, a b)."""
-    return array.reshape(array.shape[0], -1)
+    return array.reshape(array.shape[0], math.prod(array.shape[1:]))
 
 
 def repeated(array: Any, rows: int) -> Any:
@@ -95,12 +109,25 @@ def repeated(array: Any, rows: int) -> Any:
     return np.broadcast_to(array, (rows, *array.shape))
 
 
+def _is_evenly_spaced(array: Any) -> bool:
+    """Whether the numbers of a row are, as the library reads and writes them. Views without NumPy are."""
+    return bool(numpy() is None or array.ndim < 3 or array.strides[1] == array.shape[2] * array.strides[2])
+
+
 def as_it_lies(array: Any) -> Any:
     """Where the numbers of a row are not evenly spaced a copy, in which they are."""
-    np = numpy()
-    if np is None or array.ndim < 3 or array.strides[1] == array.shape[2] * array.strides[2]:
-        return array
-    return np.ascontiguousarray(array)
+    return array if _is_evenly_spaced(array) else numpy().ascontiguousarray(array)
+
+
+def to_be_filled(array: Any) -> Any:
+    """The same of an array that is written: a new one, of which `fill` copies the numbers."""
+    return array if _is_evenly_spaced(array) else numpy().empty(array.shape)
+
+
+def fill(array: Any, numbers: Any) -> None:
+    if numbers is not array:
+        np = numpy()
+        np.copyto(np.asarray(array), numbers)
 
 
 def bytes_of(rows: int) -> Any:
@@ -118,10 +145,8 @@ def outputs(fields: list[dict[str, Any]], rows: int, out: Any, inputs: list[Any]
         if array is None:
             arrays[field["name"]] = _empty(wanted)
             continue
-        _check_output(field["name"], array, wanted)
-        np = numpy()
-        others = [*inputs, *arrays.values()]
-        if np is not None and any(np.may_share_memory(array, other) for other in others):
+        array = _checked_output(field["name"], array, wanted)
+        if any(_share_memory(array, other) for other in [*inputs, *arrays.values()]):
             raise InputError(f"out: {field['name']} shares memory with another array of this call; give one of its own",
                              "wrong_array", "out")
         arrays[field["name"]] = array
@@ -142,7 +167,23 @@ def _given(fields: list[dict[str, Any]], out: Any) -> dict[str, Any]:
     return out
 
 
-def _check_output(name: str, array: Any, wanted: tuple[int, ...]) -> None:
+_MOST_WORK = 10_000
+"""Of NumPy's search for a number that two arrays share; columns of one table take next to none."""
+
+
+def _share_memory(one: Any, other: Any) -> bool:
+    from ._sinew import overlap  # late: the extension imports this module
+    np = numpy()
+    if np is None or not overlap(one, other):
+        return overlap(one, other)
+    try:
+        return bool(np.shares_memory(np.asarray(one), np.asarray(other), max_work=_MOST_WORK))
+    except RuntimeError:  # too hard: taken as shared
+        return True
+
+
+def _checked_output(name: str, array: Any, wanted: tuple[int, ...]) -> Any:
+    """The array, or a view of it where it knows no shape, such as array.array."""
     rule = f"out: {name} has to be a writable array of native doubles of shape {shape_text(wanted)}"
     try:
         view = memoryview(array)
@@ -151,6 +192,7 @@ def _check_output(name: str, array: Any, wanted: tuple[int, ...]) -> None:
     if view.format.lstrip("@=") != "d" or view.readonly or view.shape != wanted:
         found = f"{'read-only ' if view.readonly else ''}numbers of format {view.format!r}, shape {shape_text(view.shape)}"
         raise InputError(f"{rule}; found {found}", "wrong_array", "out")
+    return array if hasattr(array, "shape") else view
 
 
 def _empty(wanted: tuple[int, ...]) -> Any:

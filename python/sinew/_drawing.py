@@ -67,7 +67,10 @@ def shape_of(robot: Robot, answer: Any) -> dict[str, Any]:
             continue
         if "backbones" in plain:
             return plain
-    raise InputError(f"there is no shape to draw: {answer.status}{': ' + answer.message if answer.message else ''}", "no_shape", "answer")
+    why = f"{answer.status}{': ' + answer.message if answer.message else ''}"
+    if answer.ok:
+        why = f"an answer to {answer['query']} has no pose; give one that has, or None for the robot at home"
+    raise InputError(f"there is no shape to draw: {why}", "no_shape", "answer")
 
 
 def shape_at_home(robot: Robot) -> dict[str, Any]:

@@ -29,7 +29,10 @@ class InputError(ValueError):
 def from_text(text: str, hint: str = "") -> InputError:
     """Of what the library wrote: the JSON of an answer, to which a hint may be added, or lines `where: sentence [code]`."""
     if text.startswith("{"):
-        error = json.loads(text).get("error", {})
+        try:
+            error = json.loads(text)["error"]
+        except (ValueError, LookupError):  # a line, of a path that begins so
+            return InputError(text)
         return InputError(error.get("message", text) + hint, error.get("code", "bad_input"), error.get("where", ""))
     line = re.match(r"(?P<where>.+?): .*\[(?P<code>\w+)\]$", text.splitlines()[0] if text else "")
     if not line:

@@ -65,6 +65,11 @@ VERBS = {name: Verb(text, answers.OF[name], _table.QUESTIONS[name]) for name, te
     ("describe", "What the robot has."),
 )}
 
+BATCH = ("outputs", "path", "threads", "out")
+"""Keywords of questions of many rows, which are no fields of a question."""
+SINGLE = ("describe", "identify")
+"""Never asked of many rows at once."""
+
 RANKS = {name: KINDS[field.kind].rank for name, field in FIELDS.items()}
 RANKS.update({"x": 0, "y": 0, "phi": 0, "z": 0, "e1": 0, "e2": 0, "position": 1, "quaternion": 1, "tilt": 0, "azimuth": 0, "torsion": 0,
               "pulls": 2, "markers": 2, "time": 1, "blocks": 1})

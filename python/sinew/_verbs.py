@@ -9,20 +9,18 @@ import textwrap
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from ._fields import FIELDS, KINDS, VERBS
+from ._fields import BATCH, FIELDS, KINDS, SINGLE, VERBS
 
-BATCH = ("outputs", "path", "threads", "out")
-SINGLE = ("describe", "identify")  # never asked of many rows at once
 _BATCH_HELP = (
     "outputs (dict or list of str): what comes out, as of `Robot.prepare`",
     'path (str): "continue", as of `Robot.prepare`',
     "threads (int): default all cores; the bytes do not depend on it",
-    "out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name")
+    "out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the answer's, by name")
 _PROGRESS_HELP = (
     "progress (function or bool): told, from a thread of its own, how far the fit is: a record of `part` (str), `steps` (int) of it and `error`, the root mean square "
     "distance so far [m]; what it raises stops the fit and is raised. True: a line on stderr, the default where that is a terminal; False: nothing",)
 _FRAMES = "Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before the angular."
-_ARRAYS = "An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of arrays (n, ...). Also by keyword:"
+_ARRAYS = "An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of arrays (n, ...). Also by keyword, of n rows alone:"
 _SHAPES = {"numbers": "; (k,)", "lists": "; a list each, or an array"}
 
 

@@ -123,11 +123,12 @@ class Verbs:
                 1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
@@ -263,11 +264,12 @@ class Verbs:
             tension_limit (number) [N]: most that a tendon may pull
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             inputs: (k,) [m, rad], in leg order
@@ -408,11 +410,12 @@ class Verbs:
                 1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
@@ -567,11 +570,12 @@ class Verbs:
             force_alone (bool): the wrench that is sensed has no moment; default true
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
@@ -730,11 +734,12 @@ class Verbs:
             branches (bool): curves that leave it at bifurcations are followed, too
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             rows: list of one record a pose: pose, inputs (k,) [m, rad], curvature (legs,) [1/m],
@@ -792,11 +797,12 @@ class Verbs:
             envelope (str): bends that a section is allowed: square, disc or actuator; default its limit
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             class_, word, advice: str: exact, indeterminate, inconsistent or unreachable; the same for an
@@ -934,11 +940,12 @@ class Verbs:
                 1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
-        arrays (n, ...). Also by keyword:
+        arrays (n, ...). Also by keyword, of n rows alone:
             outputs (dict or list of str): what comes out, as of `Robot.prepare`
             path (str): "continue", as of `Robot.prepare`
             threads (int): default all cores; the bytes do not depend on it
-            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
+            out (dict of arrays): writable native doubles, (n, ...), of any strides, that become the
+                answer's, by name
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:
             pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and

@@ -15,6 +15,8 @@ def empty(shape: tuple[int, ...]) -> Any:
 
 def _flat(value: Any) -> tuple[list[Any], list[int]]:
     """Numbers of nested lists, and the lists' lengths."""
+    if isinstance(value, (bool, str)):
+        raise TypeError("no number")
     if not isinstance(value, (list, tuple)):
         return [float(value)], []
     parts = [_flat(item) for item in value]

@@ -96,6 +96,10 @@ class Answer(Record):
 
     __slots__ = ("_text", "_question", "_robot")
 
+    if TYPE_CHECKING:  # a question of many rows has `Columns` in its place, which have the answer to each row by its number
+        def __getitem__(self, key: str | int) -> Any: ...
+        def __iter__(self) -> Iterator[Any]: ...
+
     def __init__(self, robot: Robot, question: str, text: str) -> None:
         self._robot, self._question, self._text = robot, question, text
         self._raw: Any = None
@@ -166,6 +170,7 @@ class Answer(Record):
 
 
 _WITHOUT = ("indices.", "freedoms.")  # ratios and counts, whose names mean something else elsewhere
+_MIXED = (".growing.", ".shrinking.")  # of several units, of which the table may have none
 _LONG = tuple((f".{name}", unit) for name, unit in UNITS.items() if "." in name)  # other than of their last word
 
 
@@ -174,7 +179,7 @@ def _unit(place: str, name: str) -> str | None:
     words = "." + place.replace("[]", "")
     for end, unit in _LONG:
         if words.endswith(end):
-            return unit or None
+            return unit or (None if end.startswith(_MIXED) else "")
     return UNITS.get(name)
 
 

@@ -3,12 +3,13 @@ from __future__ import annotations
 
 import enum
 import json
+import operator
 from collections.abc import Iterator, KeysView, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _arrays
 from ._errors import InputError
-from ._fields import RANKS
+from ._fields import FIELDS, KINDS, RANKS
 from .answer import Answer, Record
 
 if TYPE_CHECKING:
@@ -51,7 +52,8 @@ class Columns(Answer):
     """Answers to n rows: of each field an array (n, ...), as attributes and as of a dict; SI and radians, base axes.
 
     `ok` is an array of n booleans, `status` one of n numbers of `Status`; numbers that a row does not have are NaN.
-    `columns[i]` is the whole answer to one row.
+    `columns[i]` is the whole answer to row i, asked when it is wanted: inputs are the caller's arrays, which are read again then.
+    With `path="continue"` it begins at the row's own solution; where that is not known, `InputError` says so.
     """
 
     __slots__ = ("_prepared", "_inputs", "_values", "_status", "_said")
@@ -66,8 +68,32 @@ class Columns(Answer):
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):
             return self._values[key]
-        row = range(len(self))[key]  # an IndexError where there is no such row
-        return self._prepared.answer([_arrays.row_of(column, row) for column in self._inputs])
+        try:
+            row = range(len(self))[operator.index(key)]  # an IndexError where there is no such row
+        except TypeError:
+            raise TypeError(f"answers[i] is the answer to one row, i a whole number; found {type(key).__name__}: "
+                            "of several rows take parts of the arrays") from None
+        values = [_arrays.row_of(column, row) for column in self._inputs]
+        return self._on_the_path(row, values) if self._prepared._is_path else self._prepared.answer(values)
+
+    def _on_the_path(self, row: int, values: list[Any]) -> Answer:
+        """The answer to a row that began where the one before ended: it begins at the row's own solution."""
+        word = Status(int(self._status[row])).name
+        start = self._start_of(row)
+        answer = self._prepared.answer(values, start)
+        if answer.status != word:
+            raise InputError(f"row {row} is {word}, after the rows before it; asked alone it is {answer.status}: take it from the arrays",
+                             "wrong_array", "path")
+        return answer
+
+    def _start_of(self, row: int) -> dict[str, Any] | None:
+        """The pose of this row; where it is not solved that of the last one before it that is. None: there is none before it."""
+        names = self._prepared._pose_names
+        if names is None:
+            raise InputError(f'with path="continue" row {row} began where the one before it ended, and asked alone it may end elsewhere: take it '
+                             "from the arrays; or, of a pose found from inputs, let the whole pose be among the outputs", "wrong_array", "path")
+        solved = next((before for before in range(row, -1, -1) if self._status[before] == Status.converged), None)
+        return None if solved is None else {field: _arrays.row_of(self._values[name], solved) for field, name in names.items()}
 
     def __iter__(self) -> Iterator[Any]:
         return (self[row] for row in range(len(self)))
@@ -167,22 +193,46 @@ def _restored(prepared: Prepared, *rest: Any) -> Columns:
     return Columns(prepared, *rest)
 
 
-def ask_columns(robot: Robot, query: str, fields: dict[str, Any]) -> Columns:
+def ask_columns(robot: Robot, query: str, fields: dict[str, Any], options: Mapping[str, Any]) -> Columns:
     """The question of a verb's keywords, arrays of which hold columns. Questions that differ in arrays alone are prepared once."""
     from .prepared import Prepared
     fields = {name: value for name, value in fields.items() if value is not None}
-    options = {name: fields.pop(name, None) for name in ("outputs", "path", "threads", "out")}
+    outputs, path = options.get("outputs"), options.get("path")
     columns: dict[str, Any] = {}
     pattern = _with_names(robot, fields, "", "", columns)
-    key = (query, repr(pattern), repr(options["outputs"]), options["path"])
+    key = repr((query, pattern, outputs, path))
     prepared = robot._planned.get(key)
     if prepared is None:
-        prepared = Prepared(robot, query, pattern, options["outputs"], options["path"])
+        try:
+            prepared = Prepared(robot, query, pattern, outputs, path)
+        except InputError as error:
+            raise _of_one_value(error, query, columns) from None
         for old in list(robot._planned)[:-_MOST_PLANS]:  # the list is of one moment, whatever other threads do
             robot._planned.pop(old, None)
         robot._planned[key] = prepared
-    answer: Columns = prepared._columns((), {**columns, "threads": options["threads"], "out": options["out"]}, is_many=True)
+    answer: Columns = prepared._columns((), {**columns, "threads": options.get("threads"), "out": options.get("out")}, is_many=True)
     return answer
+
+
+def _of_one_value(error: InputError, query: str, columns: Mapping[str, Any]) -> InputError:
+    """Where a field is not to be read as a column the user's array is to be named, not the name that stood for it."""
+    for place, array in columns.items():
+        if f"{place} = ${place};" in error.message:
+            return InputError(f"{place} has shape {_arrays.shape(array)}, rows of values; {query} takes one value of it", "wrong_length", place)
+    return error
+
+
+def _shapes_of(key: str) -> str:
+    """What a field takes: arrays of so many dimensions, or none."""
+    if _is_no_array(key):
+        return f"a {KINDS[FIELDS[key].kind].text}"
+    rank = RANKS.get(key, 1)
+    one = f"an array of {rank} dimension{'s' if rank > 1 else ''} for one value" if rank else "one number"
+    return f"{one}, or an array of {rank + 1} dimension{'s' if rank else ''} for a row each"
+
+
+def _is_no_array(key: str) -> bool:
+    return key in FIELDS and FIELDS[key].kind in ("pose", "poses", "map")
 
 
 def _with_names(robot: Robot, value: Any, place: str, key: str, columns: dict[str, Any]) -> Any:
@@ -191,9 +241,8 @@ def _with_names(robot: Robot, value: Any, place: str, key: str, columns: dict[st
     if isinstance(dimensions, int):
         if dimensions <= RANKS.get(key, 1):
             return value
-        if dimensions != RANKS.get(key, 1) + 1:
-            raise InputError(f"{place} has shape {_arrays.shape(value)}; give an array of {RANKS.get(key, 1)} dimensions for one "
-                             f"value, of one more for a row each", "wrong_length", place)
+        if dimensions != RANKS.get(key, 1) + 1 or _is_no_array(key):
+            raise InputError(f"{place} has shape {_arrays.shape(value)}; give {_shapes_of(key)}", "wrong_length", place)
         columns[place] = _arrays.flat_rows(value) if robot._is_of_tendons(key) else value
         return "$" + place
     if isinstance(value, Mapping):

@@ -182,11 +182,11 @@ class Identification(Answer):
         super().__init__(robot, question, text)
         self._fitted: Robot | None = None
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str | int) -> Any:
         if name == "parameters":
-            return Parameters(self._plain()[name])
+            return Parameters(self._plain()["parameters"])
         if name == "by_row":
-            return ByRow(self._plain()[name])
+            return ByRow(self._plain()["by_row"])
         return super().__getitem__(name)
 
     @property

@@ -1,11 +1,13 @@
 """Questions prepared once and put many times."""
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import operator
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _arrays, _sinew
 from ._errors import InputError, from_text
+from ._fields import VERBS
 from .columns import Columns, Status
 
 if TYPE_CHECKING:
@@ -47,6 +49,15 @@ class Row(_sinew.Row):
         """Outputs by name: numbers and arrays of their shape, SI and radians."""
         return {field["name"]: getattr(self, field["name"]) for field in self._question.layout["outputs"]}
 
+    def __copy__(self) -> Row:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Row:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return self._question._row, self._state()
+
     def __repr__(self) -> str:
         values = ", ".join(f"{name}: {value!r}" for name, value in self.to_dict().items())
         return f"<{self._question.query} of {self._question.robot.name}: {self.status} ({values})>"
@@ -60,7 +71,7 @@ class Prepared(_sinew.Question):
 
     Arguments are in the order in which the names stand in the question, or by name. Numbers, lists or (k,) arrays are
     one row and give a `Row`; arrays (n,) or (n, k) are n rows and give `Columns`. Numbers are SI and radians; `inputs` says
-    units and shapes. `threads` and `out` are as of the robot's methods. Raises `InputError` where an array is not to be read,
+    units and shapes. `threads` (of n rows; one row is computed by one) and `out` are as of the robot's methods. Raises `InputError` where an array is not to be read,
     `TypeError` where arguments are missing or not known. Any number of threads may call it; `stop()` ends what others compute.
     """
 
@@ -98,16 +109,36 @@ class Prepared(_sinew.Question):
         """What comes out, a dict each: `name`, `unit`, `rank`, and `shape` of one row, a list of numbers: `[]` of a number, `[6, 3]`."""
         return [dict(field) for field in self.layout["outputs"]]
 
-    def answer(self, values: Sequence[Any]) -> Answer:
-        """The whole answer to one row: `values` in the order of `inputs`, in their shapes, SI and radians."""
+    def answer(self, values: Sequence[Any], start: Any = None) -> Answer:
+        """The whole answer to one row: `values` in the order of `inputs`, in their shapes, SI and radians. A `start` is taken in
+        place of the question's.
+        """
         named = {field["name"]: value for field, value in zip(self.layout["inputs"], values)}
-        answer: Answer = self.robot._ask(self.query, _filled(self._made_of[2], named, self.robot, ""))
+        fields = _filled(self._made_of[2], named, self.robot, "")
+        answer: Answer = self.robot._ask(self.query, fields if start is None else {**fields, "start": start})
         return answer
+
+    @property
+    def _is_path(self) -> bool:
+        return self._made_of[4] == "continue"
+
+    @property
+    def _pose_names(self) -> dict[str, str] | None:
+        """By which names the numbers of a whole pose come out, where it is sought, from inputs: it is a `start` then."""
+        about = self.robot._about()._plain()
+        if about.get("kind") != "parallel" or "start" not in VERBS[self.query].fields or not {"pose", "independent"}.isdisjoint(self._made_of[2]):
+            return None
+        outputs = self._made_of[3]
+        names = [field["name"] for field in self.layout["outputs"]]
+        places = {f"pose.{name}": name for name in names} if outputs is None else {place: name for name, place in _named(outputs).items()}
+        fields = ("x", "y", "phi") if about.get("space") == "planar" else ("position", "quaternion")
+        found = {field: places[f"pose.{field}"] for field in fields if f"pose.{field}" in places}
+        return found if len(found) == len(fields) else None
 
     def _columns(self, args: tuple[Any, ...], named: dict[str, Any], is_many: bool = False) -> Any:
         """What is not plainly one row of numbers."""
         named = dict(named)
-        threads, out = named.pop("threads", None), named.pop("out", None)
+        threads, out = _count_of_threads(named.pop("threads", None)), named.pop("out", None)
         fields = self.layout["inputs"]
         values = self._arguments(args, named)
         columns = [_arrays.column(value, field) for value, field in zip(values, fields)]
@@ -133,30 +164,45 @@ class Prepared(_sinew.Question):
             raise TypeError(f"{', '.join(missing)} missing: {known}")
         return [given[name] for name in names]
 
-    def _run(self, columns: list[Any], ranks: list[int], threads: Any, out: Any) -> Columns:
+    def _run(self, columns: list[Any], ranks: list[int], threads: int, out: Any) -> Columns:
         sizes = {len(array) for array, rank in zip(columns, ranks) if rank}
         if len(sizes) > 1:
             told = ", ".join(f"{field['name']} {_arrays.shape(array)}" for array, field in zip(columns, self.layout["inputs"]))
             raise InputError(f"arrays of different lengths: {told}; give as many rows of each", "wrong_length", self.query)
         rows = sizes.pop() if sizes else 1
-        threads = 0 if threads is None else threads
-        if not isinstance(threads, int) or not 0 <= threads < 2**31:
-            raise InputError(f"threads = {threads!r}; give a number, 0 for as many as there are cores", "out_of_range", "threads")
         inputs = [array if rank else _arrays.repeated(array, rows) for array, rank in zip(columns, ranks)]
         outputs = _arrays.outputs(self.layout["outputs"], rows, out, inputs)
         status = _arrays.bytes_of(rows)
-        said = self.run(rows, [_arrays.as_it_lies(array) for array in inputs], list(outputs.values()), status, threads)
+        filled = [_arrays.to_be_filled(array) for array in outputs.values()]
+        said = self.run(rows, [_arrays.as_it_lies(array) for array in inputs], filled, status, threads)
+        for array, numbers in zip(outputs.values(), filled):
+            _arrays.fill(array, numbers)
         if said and said.startswith('{"error"') and _arrays.counts(status) == [(Status.bad_input, rows)]:
             raise from_text(said)  # no row is input: it is the question that is wrong
         return Columns(self, inputs, outputs, status, said)
 
 
+def _count_of_threads(threads: Any) -> int:
+    try:
+        count = 0 if threads is None else operator.index(threads)
+    except TypeError:
+        count = -1
+    if not 0 <= count < 2**31:
+        raise InputError(f"threads = {threads!r}; give a whole number, 0 for as many as there are cores", "out_of_range", "threads")
+    return count
+
+
 def _named(outputs: Any) -> Mapping[str, str]:
     """`["pose.position"]` is `{"position": "pose.position"}`."""
-    if isinstance(outputs, Mapping):
-        return outputs
-    places = [outputs] if isinstance(outputs, str) else list(outputs)
-    return {str(place).rsplit(".", 1)[-1]: place for place in places}
+    if not isinstance(outputs, Iterable):
+        raise InputError(f"outputs: found {type(outputs).__name__}; give a dict of names and places, or a list of places", "wrong_type", "outputs")
+    places: Any = [outputs] if isinstance(outputs, str) else outputs
+    named = places if isinstance(places, Mapping) else {str(place).rsplit(".", 1)[-1]: place for place in places}
+    for name in named:
+        if hasattr(Row, str(name)) or hasattr(Columns, str(name)):
+            raise InputError(f"outputs: answers have a {name!r} of their own; give this one another name, such as \"my_{name}\"",
+                             "ambiguous", f"outputs.{name}")
+    return named
 
 
 def _filled(value: Any, named: Mapping[str, Any], robot: Robot, key: str) -> Any:

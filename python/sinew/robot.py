@@ -7,18 +7,23 @@ import json
 import os
 import threading
 from collections.abc import Mapping
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Union
 
 from . import _sinew
 from ._errors import InputError, from_text
-from ._fields import RANKS
+from ._fields import BATCH, RANKS, SINGLE
 from ._progress import Watch
 from ._verbs import Verbs
 from .answer import Answer, Record
 from .identification import Identification, rows_of
 
+if TYPE_CHECKING:
+    from ._view import View
+    from .prepared import Prepared
+
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Robot"]
 _FILE, _TEXT = 0, 1
+_OF_ROWS = frozenset(BATCH)
 
 
 class Robot(Verbs):
@@ -44,7 +49,7 @@ class Robot(Verbs):
             self._kind, self._source = _TEXT, json.dumps(_plain(source))
         elif isinstance(source, (str, os.PathLike)):
             self._source = os.fspath(source)
-            self._kind = _TEXT if isinstance(source, str) and "\n" in source else _FILE
+            self._kind = _TEXT if isinstance(source, str) and ("\n" in source or source.lstrip().startswith("{")) else _FILE
         else:
             raise InputError(f"a robot is a name, a path, the text of a robot file, or a dict; found {type(source).__name__}",
                              "wrong_type", "source")
@@ -68,7 +73,11 @@ class Robot(Verbs):
             session = self._local.session = self._handle.session()
         return self._handle.session() if session.is_busy else session
 
-    def _ask(self, query: str, fields: dict[str, Any]) -> Any:
+    def _ask(self, query: Any, fields: dict[str, Any]) -> Any:
+        options: dict[str, Any] = {}
+        if query not in SINGLE and not _OF_ROWS.isdisjoint(fields):  # taken out unread: `out` may hold anything
+            options = {name: value for name, value in fields.items() if name in _OF_ROWS and value is not None}
+            fields = {name: value for name, value in fields.items() if name not in _OF_ROWS}
         if self._settings:
             fields = {**fields, "set": {**self._settings, **(fields.get("set") or {})}}
         for name in ("changes", "tensions"):
@@ -86,7 +95,9 @@ class Robot(Verbs):
             asked = session.ask(query, fields, RANKS)
         if asked is None:
             from .columns import ask_columns
-            return ask_columns(self, query, fields)
+            return ask_columns(self, query, fields, options)
+        if options:
+            raise _only_of_rows(list(options))
         question, text = asked
         if text.startswith('{"error"'):
             raise from_text(text, _hint_of_rows(fields))
@@ -98,9 +109,11 @@ class Robot(Verbs):
 
         Raises `InputError` where it is not to be read. No solution is no error: see `Answer.status`.
         """
-        if not isinstance(question, str):
+        if not isinstance(question, (str, Mapping)):
+            raise InputError(f"a question is a dict, or JSON text; found {type(question).__name__}", "wrong_type", "query")
+        if isinstance(question, Mapping):
             fields = dict(question)
-            answer: Answer = self._ask(fields.pop("query", ""), fields)
+            answer: Answer = self._ask(fields.pop("query", None), fields)
             return answer
         text = self._session().ask_text(question)
         plain = json.loads(text)
@@ -108,7 +121,7 @@ class Robot(Verbs):
             raise from_text(text)
         return (Identification if plain.get("query") == "identify" else Answer)(self, question, text)
 
-    def prepare(self, query: str, *, outputs: Any = None, path: str | None = None, **fields: Any) -> Any:
+    def prepare(self, query: str, *, outputs: Any = None, path: str | None = None, **fields: Any) -> Prepared:
         """A question to be put many times: a function (`Prepared`) of what stands as "$name" in its fields.
 
             forward = robot.prepare("forward", inputs="$lengths")
@@ -192,7 +205,7 @@ class Robot(Verbs):
         from ._html import save
         save(self, answer, path)
 
-    def view(self, *, port: int = 0, open_browser: bool = True) -> Any:
+    def view(self, *, port: int = 0, open_browser: bool = True) -> View:
         """Starts `sinew serve` and opens the viewer: in a notebook in a frame, else in a browser, where `open_browser` is true.
 
         `port` is a number of TCP's, 0 for a free one. Returns a `View`. Raises `InputError` where the command is not there.
@@ -232,6 +245,12 @@ def robots() -> list[str]:
     """Names of the robots that come with sinew, for `load`."""
     folder = importlib.resources.files("sinew") / "robots"
     return sorted(entry.name[:-len(".yaml")] for entry in folder.iterdir() if entry.name.endswith(".yaml"))
+
+
+def _only_of_rows(names: list[str]) -> InputError:
+    what = "is for questions" if len(names) == 1 else "are for questions"
+    return InputError(f"{', '.join(names)} {what} of many rows, and this is one: give a field as an array of one dimension more, a row each, "
+                      f"or leave {'it' if len(names) == 1 else 'them'} out", "unknown_key", names[0])
 
 
 def _hint_of_rows(fields: Mapping[str, Any]) -> str:

@@ -1,4 +1,5 @@
 """Arrays in, arrays out."""
+import array
 import json
 import pickle
 import tracemalloc
@@ -169,6 +170,98 @@ class Columns(unittest.TestCase):
         whole = np.zeros((8, 5))
         self.robot.forward(inputs=inputs, outputs={"phi": "pose.phi"}, out=whole[:, 2])
         self.assertTrue((whole[:, 2] != 0).any() and not whole[:, [0, 1, 3, 4]].any())
+
+    def test_keywords_of_many_rows_stand_anywhere(self):
+        """`out` is no part of the question, whatever is in it."""
+        inputs, wanted = rows(5), ["residual"]
+        for fields in ({"out": np.full(5, np.nan), "inputs": inputs, "outputs": wanted}, {"threads": 1, "out": np.full(5, np.nan),
+                       "outputs": wanted, "inputs": inputs}):
+            out = fields["out"]
+            self.assertIs(self.robot.forward(**fields).residual, out)
+            self.assertFalse(np.isnan(out).any())
+        out = np.full(5, np.nan)
+        self.assertIs(self.robot.forward(inputs, outputs=wanted, out=out).residual, out)
+
+    def test_keywords_of_many_rows_are_not_of_one(self):
+        for name, value in (("threads", 1), ("path", "continue"), ("outputs", ["pose.x"]), ("out", np.full(1, np.nan))):
+            with self.assertRaisesRegex(sinew.InputError, f"{name} is for questions of many rows"):
+                self.robot.forward([0.19] * 3, **{name: value})
+        self.assertTrue(self.robot.forward([0.19] * 3, threads=None).ok)
+        with self.assertRaisesRegex(sinew.InputError, 'unknown key "threads"'):
+            self.robot.describe(threads=1)
+
+    def test_out_has_any_strides(self):
+        speed = self.robot.prepare("velocity", pose={"x": "$x", "y": 0, "phi": 0}, outputs=["J"])
+        x = np.linspace(0, 0.02, 5)
+        wanted = speed(x).J
+        wide = np.zeros((5, 6, 6))
+        for out in (np.zeros((5, 3, 3), order="F"), np.zeros((3, 3, 5)).T, np.zeros((5, 3, 3)).transpose(0, 2, 1), wide[:, ::2, ::2], wide[::-1, 1::2, ::-2]):
+            self.assertIs(speed(x, out=out).J, out)
+            np.testing.assert_array_equal(out, wanted)
+
+    def test_columns_of_one_table_may_be_in_and_out(self):
+        table = np.zeros((5, 4))
+        table[:, :3] = rows(5)
+        wanted = self.robot.forward(table[:, :3], outputs=["pose.x"]).x
+        self.robot.forward(table[:, :3], outputs=["pose.x"], out=table[:, 3])
+        np.testing.assert_array_equal(table[:, 3], wanted)
+
+    def test_out_of_other_packages_has_a_shape(self):
+        out = array.array("d", [0.0] * 5)
+        found = self.robot.forward(rows(5), outputs=["pose.x"], out=out)
+        self.assertEqual(list(out), list(found.x))
+        self.assertIn("x (5,)", repr(found))
+
+    def test_of_no_rows_of_tendons(self):
+        arm = sinew.load("nottingham-tpcj")
+        for none in (np.zeros((0, 15)), np.zeros((0, 5, 3))):
+            self.assertEqual(arm.forward(changes=none).changes.shape, (0, 15))
+
+    def test_rows_of_a_path_begin_at_their_own_solutions(self):
+        for name, first in (("3-rfr", [0.19, 0.19, 0.188]), ("3pfs-g2", [0.44, 0.42, 0.41])):
+            robot = sinew.load(name)
+            inputs = np.array(first) + np.linspace(0, 2e-3, 9)[:, None] * np.arange(3)
+            mode = robot.forward(first, all=True).solutions[1].pose  # where a search from home does not end
+            found = robot.forward(inputs, start=mode, path="continue")
+            self.assertTrue(found.ok.all())
+            for name, numbers in found.items():
+                if name in mode:
+                    np.testing.assert_allclose([one.pose[name] for one in found], numbers, atol=1e-8)
+                    self.assertGreater(np.abs(robot.forward(inputs[4]).pose[name] - numbers[4]).max(), 1e-4)
+        named = {"a": "pose.x", "b": "pose.y", "c": "pose.phi"}
+        planar = self.robot.forward(rows(3), path="continue", outputs=named)
+        self.assertAlmostEqual(planar[1].pose.phi, planar.c[1], 12)
+
+    def test_rows_of_a_path_that_are_not_solved_say_why(self):
+        found = self.robot.forward(np.linspace([0.19, 0.19, 0.188], [0.15, 0.19, 0.25], 30), path="continue")
+        self.assertEqual([one.ok for one in found], found.ok.tolist())
+        self.assertFalse(found.ok.all())
+        self.assertIn("no pose closes", found[10].message)
+
+    def test_rows_of_a_path_whose_pose_is_not_known_are_refused(self):
+        arm = sinew.load("two-segment")
+        for found in (self.robot.forward(rows(3), path="continue", outputs=["pose.x"]), arm.forward(tensions=np.ones((3, 6)), path="continue"),
+                      self.robot.inverse({"x": np.zeros(3), "y": 0, "phi": 0}, path="continue")):
+            with self.assertRaisesRegex(sinew.InputError, "take it from the arrays"):
+                found[1]
+
+    def test_a_row_has_a_number(self):
+        found = self.robot.forward(rows(5))
+        self.assertEqual(found[np.int64(-1)], found[4])
+        for wrong in (slice(1, 3), 1.0, None, np.arange(2)):
+            with self.assertRaisesRegex(TypeError, "a whole number; found"):
+                found[wrong]
+
+    def test_what_takes_no_rows_names_the_array(self):
+        arm = sinew.load("nottingham-tpcj")
+        for ask, why in ((lambda: arm.diagram(section=0, changes=np.zeros((4, 15))), r"changes has shape \(4, 15\), rows of values; diagram takes one"),
+                         (lambda: self.robot.track(poses=np.zeros((3, 3))), r"poses has shape \(3, 3\); give a list of poses"),
+                         (lambda: self.robot.inverse(pose=np.zeros(3)), r"pose has shape \(3,\); give a pose"),
+                         (lambda: self.robot.forward(np.zeros((2, 2, 3))), "1 dimension for one value, or an array of 2 dimensions for a row each"),
+                         (lambda: self.robot.forward(rows(3), path=[1]), "path is a list"),
+                         (lambda: self.robot.forward(rows(3), outputs=0), "outputs: found int")):
+            with self.assertRaisesRegex(sinew.InputError, why):
+                ask()
 
     def test_out_that_does_not_fit_is_refused(self):
         inputs = rows(8)

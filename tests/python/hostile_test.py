@@ -48,6 +48,20 @@ class Questions(unittest.TestCase):
         self.refused("start", start={1, 2}, inputs=LENGTHS)
         self.refused("1 is no text|no text", inputs=LENGTHS, start={1: 2})
 
+    def test_no_questions(self):
+        for question, why in ((None, "found NoneType"), (3, "found int"), ({"query": 3}, "query = 3 is unknown"),
+                              ({"query": None}, 'missing key "query"'), ({"query": [1]}, "query"), ({}, 'missing key "query"')):
+            with self.assertRaisesRegex(sinew.InputError, why):
+                self.robot.ask(question)
+
+    def test_units_and_masks_are_not_lost(self):
+        class Length(np.ndarray):
+            unit = "mm"
+
+        self.refused(r"inputs has a unit of its own", "wrong_array", inputs=np.full(3, 190).view(Length))
+        self.refused(r"inputs\[1\] is empty", inputs=np.ma.array(LENGTHS, mask=[0, 1, 0]))
+        self.assertTrue(self.robot.forward(inputs=np.ma.array(LENGTHS)).ok)
+
     def test_recursion(self):
         deep = []
         for _ in range(100_000):
@@ -85,6 +99,12 @@ class Questions(unittest.TestCase):
         for source in ("", "no-such", "/", "/dev/null", "sinew: 1\nlegs: 3\n", {}, {"legs": float("nan")}, {1: 2}):
             with self.assertRaises(sinew.InputError):
                 sinew.load(source)
+        for text in ('{"sinew": 1}', ' {"sinew": 1, "name":', "{", "{no: yaml"):  # a text, if of one line
+            with self.assertRaises(sinew.InputError) as caught:
+                sinew.load(text)
+            self.assertTrue(caught.exception.where.startswith("robot:1:"), text)
+        with self.assertRaisesRegex(sinew.InputError, "no such file"):
+            sinew.load(pathlib.Path('{"error": 1}'))
         for source in (None, 3, b"3-rfr", ["3-rfr"]):
             with self.assertRaisesRegex(sinew.InputError, "a robot is a name"):
                 sinew.load(source)

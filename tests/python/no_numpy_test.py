@@ -42,6 +42,22 @@ class NoNumpy(unittest.TestCase):
         x = self.robot.prepare("forward", inputs="$l", outputs={"x": "pose.x"})([[0.19, 0.19, 0.188]] * 4, out=out).x
         self.assertEqual(list(out), list(x))
 
+    def test_booleans_and_texts_are_no_numbers(self):
+        prepared = self.robot.prepare("forward", inputs="$l")
+        for wrong in ([True, 0.19, 0.19], ["0.19"] * 3):
+            with self.assertRaisesRegex(sinew.InputError, "no array of numbers"):
+                prepared(wrong)
+
+    def test_out_that_shares_memory_is_refused(self):
+        prepared = self.robot.prepare("forward", inputs="$l", outputs={"x": "pose.x"})
+        flat = array.array("d", [0.19, 0.19, 0.188] * 4)
+        rows = memoryview(flat).cast("B").cast("d", [4, 3])
+        with self.assertRaisesRegex(sinew.InputError, "shares memory"):
+            prepared(rows, out=memoryview(flat)[4:8])
+        more = memoryview(array.array("d", [0.19, 0.19, 0.188] * 4 + [0.0] * 4))
+        self.assertTrue(all(prepared(more[:12].cast("B").cast("d", [4, 3]), out=more[12:]).ok))
+        self.assertEqual(list(more[12:]), list(prepared(rows).x))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -76,6 +76,11 @@ class Html(unittest.TestCase):
         import numpy as np
         self.assertIn("(4,)", robot.forward(inputs=np.full((4, 3), 0.19))._repr_html_())
 
+    def test_of_an_answer_without_a_pose_is_refused(self):
+        robot = sinew.load("3-rfr")
+        with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(sinew.InputError, "an answer to describe has no pose"):
+            robot.save_html(robot.describe(), os.path.join(folder, "none.html"))
+
     def test_of_arms_shows_what_tendons_pull(self):
         arm = sinew.load("two-segment")
         answer = arm.forward(tensions=[[4, 0, 0], [0, 1.5, 0]])

@@ -1,4 +1,5 @@
 """Type checkers, stubs, and the table of fields agree."""
+import doctest
 import importlib.util
 import pathlib
 import re
@@ -14,27 +15,64 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
 
 
+MEASURED = "from typing import Any\npulls: Any\nmarkers: Any\ntime: Any\nblocks: Any\n"
+"""Names that the manual's fits have from elsewhere."""
+
+
+def manual():
+    """The manual's blocks as one program, without what it shows to be refused."""
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    program = [MEASURED]
+    for language, block in re.findall(r"```(pycon|python)\n(.*?)```", page, flags=re.S):
+        shown = doctest.DocTestParser().get_examples(block)
+        program += [block] if language == "python" else [example.source for example in shown if not example.exc_msg]
+    return "\n".join(program)
+
+
 class Stubs(unittest.TestCase):
     def test_are_what_the_table_gives(self):
-        subprocess.run([sys.executable, ROOT / "tools" / "python_stubs.py", "--check"], check=True)
+        subprocess.run([sys.executable, "-B", ROOT / "tools" / "python_stubs.py", "--check"], check=True)
 
-    @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed")
-    def test_are_clean_under_mypy(self):
+
+@unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed")
+class Checkers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+
+    def checked(self, *what):
         package = pathlib.Path(sinew.__file__).parent
-        with tempfile.TemporaryDirectory() as cache:
-            for what in ([str(HERE / "user_program.py")], ["-p", "sinew"]):
-                done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, *what], capture_output=True, text=True,
-                                      cwd=cache, env={"MYPYPATH": str(package.parent), "PATH": "/usr/bin:/bin"})
-                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", self.folder, *what], capture_output=True, text=True,
+                              cwd=self.folder, env={"MYPYPATH": str(package.parent), "PATH": "/usr/bin:/bin"})
 
-    @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed")
+    def clean(self, *what):
+        done = self.checked(*what)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def program(self, text):
+        path = self.folder / "program.py"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def test_take_the_package_and_programs_strictly(self):
+        self.clean("--strict", "-p", "sinew")
+        self.clean("--strict", HERE / "user_program.py")
+
+    def test_take_the_manual_strictly(self):
+        self.clean("--strict", self.program(manual()))
+
+    def test_take_the_examples(self):
+        for example in sorted((ROOT / "examples" / "python").glob("*.py")):
+            self.clean("--ignore-missing-imports", example)
+
     def test_find_a_wrong_keyword(self):
-        with tempfile.TemporaryDirectory() as folder:
-            wrong = pathlib.Path(folder) / "wrong.py"
-            wrong.write_text('import sinew\nsinew.load("3-rfr").forward(input=[1.0])\n')
-            done = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", folder, str(wrong)], capture_output=True, text=True, cwd=folder,
-                                  env={"MYPYPATH": str(pathlib.Path(sinew.__file__).parent.parent), "PATH": "/usr/bin:/bin"})
-            self.assertIn('"input"', done.stdout)
+        self.assertIn('"input"', self.checked(self.program('import sinew\nsinew.load("3-rfr").forward(input=[1.0])\n')).stdout)
+
+    def test_know_what_prepare_gives(self):
+        text = 'import sinew\nasked = sinew.load("3-rfr").prepare("forward", inputs="$l")\nprint(asked([1.0]).x)\nasked.no_such_thing\n'
+        self.assertIn('"Prepared" has no attribute "no_such_thing"', self.checked(self.program(text)).stdout)
 
 
 class Table(unittest.TestCase):

@@ -1,4 +1,6 @@
 """A program as users write them, for the type checker."""
+import numpy as np
+
 import sinew
 
 robot: sinew.Robot = sinew.load("3pfs-g2")
@@ -12,6 +14,8 @@ print(list(held), held["inputs"], held.robot.set({"rod.diameter": "1 mm"}).name)
 forward = robot.prepare("forward", inputs="$lengths")
 row = forward([0.44, 0.42, 0.41])
 print(row.ok, row.position)
+found = robot.forward(np.full((2, 3), 0.42), path="continue")
+print(found[0].message, [one.ok for one in found])
 try:
     robot.track(from_=answer.pose, to=held.pose, samples=10)
 except sinew.InputError as error:
