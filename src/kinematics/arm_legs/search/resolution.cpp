@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <ranges>
+#include <algorithm>
 
 #include "base/at.hpp"
 #include "kinematics/arms/ladder.hpp"
@@ -38,9 +38,10 @@ double error_left(double moved, const ArmBasis& coarse, const ArmBasis& fine) {
 
 std::vector<ArmBasis> bases_of(const ArmOptions& options) {
   std::vector<ArmBasis> bases;
+  const auto finer = resolutions_of(options);
   if (options.accuracy > 0)
-    for (const Resolution& finer : resolutions_of(options) | std::views::take(most_levels))
-      bases.push_back({options.model, finer.order, finer.elements});
+    for (const auto& [order, elements] : finer.first(std::min(finer.size(), most_levels)))
+      bases.push_back({options.model, order, elements});
   if (bases.empty()) bases.push_back({options.model, options.order, options.elements});
   return bases;
 }
