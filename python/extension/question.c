@@ -22,22 +22,20 @@ static sinew_batch* prepare(const Question* self) {
   return batch;
 }
 
-/* One for this call alone, since a stop ends all that runs in a batch: one that is kept, or another one. */
-sinew_batch* take_batch(Question* self, int* slot) {
-  for (*slot = 0; *slot < most_kept; ++*slot) {
-    if (self->kept[*slot].is_busy) continue;
-    self->kept[*slot].is_busy = 1;
-    if (!self->kept[*slot].batch && !(self->kept[*slot].batch = prepare(self))) self->kept[*slot].is_busy = 0;
-    return self->kept[*slot].batch;
+/* One for this call alone, since a stop ends all that runs in a batch: as many are kept as calls that ran at
+ * once. */
+Kept* take_batch(Question* self) {
+  Kept* kept = self->kept;
+  while (kept && kept->is_busy) kept = kept->next;
+  if (!kept) {
+    kept = PyMem_Calloc(1, sizeof(Kept));
+    if (!kept) return (Kept*)(void*)PyErr_NoMemory();
+    kept->next = self->kept;
+    self->kept = kept;
   }
-  return prepare(self);
-}
-
-void put_batch(Question* self, sinew_batch* batch, int slot) {
-  if (slot < most_kept)
-    self->kept[slot].is_busy = 0;
-  else
-    sinew_release(batch);
+  kept->is_busy = 1;
+  if (!kept->batch && !(kept->batch = prepare(self))) kept->is_busy = 0;
+  return kept->batch ? kept : NULL;
 }
 
 static int read_field(PyObject* item, Field* field) {
@@ -124,8 +122,9 @@ static PyObject* new_question(PyTypeObject* type, PyObject* args, PyObject* keyw
   self->text = bytes;
   self->handle = Py_NewRef(handle);
   self->row_type = Py_NewRef(rows);
-  self->kept[0].batch = prepare(self);
-  if (!self->kept[0].batch || read_layout(self, self->kept[0].batch) < 0) {
+  Kept* first = take_batch(self);
+  if (first) first->is_busy = 0;
+  if (!first || read_layout(self, first->batch) < 0) {
     Py_DECREF(self);
     return NULL;
   }
@@ -135,7 +134,11 @@ static PyObject* new_question(PyTypeObject* type, PyObject* args, PyObject* keyw
 static void free_question(PyObject* object) {
   Question* self = (Question*)object;
   PyTypeObject* type = Py_TYPE(object);
-  for (int i = 0; i < most_kept; ++i) sinew_release(self->kept[i].batch);
+  for (Kept *kept = self->kept, *next; kept; kept = next) {
+    next = kept->next;
+    sinew_release(kept->batch);
+    PyMem_Free(kept);
+  }
   free_fields(self->in);
   free_fields(self->out);
   Py_XDECREF(self->handle);
@@ -237,17 +240,17 @@ static PyObject* question_run(PyObject* object, PyObject* const* args, Py_ssize_
   if (count != 5) return PyErr_Format(PyExc_TypeError, "run(rows, inputs, outputs, statuses, threads)");
   Columns all = {.rows = PyLong_AsSize_t(args[0])};
   const long threads = PyErr_Occurred() ? 0 : PyLong_AsLong(args[4]);
-  int slot = most_kept;
-  sinew_batch* batch = NULL;
-  if (!PyErr_Occurred() && hold_columns(&all, self, args) == 0) batch = take_batch(self, &slot);
+  Kept* kept = NULL;
+  if (!PyErr_Occurred() && hold_columns(&all, self, args) == 0) kept = take_batch(self);
   PyObject* result = NULL;
-  while (batch && !result && !PyErr_Occurred()) {
+  while (kept && !result && !PyErr_Occurred()) {
     Interrupt interrupt;
     char* error = NULL;
     int32_t code;
-    begin_interruptible(&interrupt, batch);
-    Py_BEGIN_ALLOW_THREADS code = sinew_run(batch, all.rows, all.inputs, all.columns + self->inputs_count,
-                                            all.statuses.buf, (int32_t)threads, &error);
+    begin_interruptible(&interrupt, kept->batch);
+    Py_BEGIN_ALLOW_THREADS code =
+        sinew_run(kept->batch, all.rows, all.inputs, all.columns + self->inputs_count, all.statuses.buf,
+                  (int32_t)threads, &error);
     Py_END_ALLOW_THREADS const int again =
         end_interruptible(&interrupt) && PyErr_CheckSignals() == 0; /* the handler wants us to go on */
     if (PyErr_Occurred() || again) {
@@ -261,7 +264,7 @@ static PyObject* question_run(PyObject* object, PyObject* const* args, Py_ssize_
       result = error ? PyUnicode_FromString(error) : Py_NewRef(Py_None);
     sinew_free(error);
   }
-  if (batch) put_batch(self, batch, slot);
+  if (kept) kept->is_busy = 0;
   release_columns(&all);
   return result;
 }
@@ -269,8 +272,8 @@ static PyObject* question_run(PyObject* object, PyObject* const* args, Py_ssize_
 static PyObject* question_stop(PyObject* object, PyObject* nothing) {
   (void)nothing;
   Question* self = (Question*)object;
-  for (int i = 0; i < most_kept; ++i)
-    if (self->kept[i].batch && self->kept[i].is_busy) sinew_stop(self->kept[i].batch);
+  for (const Kept* kept = self->kept; kept; kept = kept->next)
+    if (kept->batch && kept->is_busy) sinew_stop(kept->batch);
   return Py_NewRef(Py_None);
 }
 

@@ -87,15 +87,14 @@ enum { bad_input = 9 };
 
 static int run_row(Question* self, Row* row) {
   const Places places = places_of(row);
-  int slot = most_kept;
-  sinew_batch* batch = places.in ? take_batch(self, &slot) : (sinew_batch*)(void*)PyErr_NoMemory();
-  for (int again = 1; batch && again && !PyErr_Occurred();) {
+  Kept* kept = places.in ? take_batch(self) : (Kept*)(void*)PyErr_NoMemory();
+  for (int again = 1; kept && again && !PyErr_Occurred();) {
     Interrupt interrupt;
     char* error = NULL;
     uint8_t status = 255;
     int32_t code;
-    begin_interruptible(&interrupt, batch);
-    Py_BEGIN_ALLOW_THREADS code = sinew_run(batch, 1, places.in, places.out, &status, 1, &error);
+    begin_interruptible(&interrupt, kept->batch);
+    Py_BEGIN_ALLOW_THREADS code = sinew_run(kept->batch, 1, places.in, places.out, &status, 1, &error);
     Py_END_ALLOW_THREADS again = end_interruptible(&interrupt) && PyErr_CheckSignals() == 0;
     row->status = status;
     if (PyErr_Occurred() || again) {
@@ -107,7 +106,7 @@ static int run_row(Question* self, Row* row) {
       raise_text(error);
     sinew_free(error);
   }
-  if (batch) put_batch(self, batch, slot);
+  if (kept) kept->is_busy = 0;
   PyMem_Free(places.in);
   return PyErr_Occurred() ? -1 : 0;
 }

@@ -48,13 +48,14 @@ typedef struct {
   PyObject* name;
   Py_ssize_t rank, shape[2], count; /* count: numbers in a row */
 } Field;
-enum { most_kept = 16 };
+typedef struct Kept {
+  sinew_batch* batch;
+  int is_busy;
+  struct Kept* next;
+} Kept;
 typedef struct {
   PyObject_HEAD PyObject *handle, *text, *layout, *row_type, *outputs; /* outputs: index by name */
-  struct {
-    sinew_batch* batch;
-    int is_busy;
-  } kept[most_kept];
+  Kept* kept;
   Field *in, *out;
   Py_ssize_t inputs_count, outputs_count, in_numbers, out_numbers;
 } Question;
@@ -65,9 +66,8 @@ typedef struct {
 } Row;
 extern PyType_Spec question_spec, row_spec;
 extern PyTypeObject *question_type, *row_type;
-sinew_batch* take_batch(Question* question, int* slot); /* NULL with an exception */
-void put_batch(Question* question, sinew_batch* batch, int slot);
-int prepare_rows(void); /* row.c, as the next */
+Kept* take_batch(Question* question); /* busy then; NULL with an exception */
+int prepare_rows(void);               /* row.c, as the next */
 PyObject* call_question(PyObject* self, PyObject* args, PyObject* keywords);
 PyObject* restore_row(PyObject* self, PyObject* args); /* of what Row._state gives */
 

@@ -6,6 +6,7 @@ import resource
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -232,6 +233,19 @@ class Threads(unittest.TestCase):
             thread.join(0.05)
         self.assertGreater(found[0].counts["stopped"], 0)
         self.assertTrue(prepared([0.44, 0.42, 0.41]).ok)
+
+    def test_stop_ends_what_all_others_compute(self):
+        prepared = sinew.load("3pfs-g2").prepare("forward", inputs="$l")
+        found = []
+        inputs = np.random.default_rng(0).uniform(0.41, 0.44, (10**5, 3))
+        threads = [threading.Thread(target=lambda: found.append(prepared(inputs, threads=1))) for _ in range(20)]
+        for thread in threads:
+            thread.start()
+        time.sleep(0.05)
+        while any(thread.is_alive() for thread in threads):
+            prepared.stop()
+            time.sleep(0.01)
+        self.assertEqual([columns.counts.get("stopped", 0) > 0 for columns in found], 20 * [True])
 
     def test_die_with_the_process_while_they_compute(self):
         code = ("import sinew, threading, time, numpy as np\n"
