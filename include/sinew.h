@@ -76,16 +76,18 @@ SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t
 
 /* Prepares a question for many rows: a query in which texts "$name" stand for numbers, or for whole lists
  * whose length the robot knows, with "outputs": {"name": "place in the answer"} (numbers, lists or matrices;
- * left out: the usual ones, which sinew_fields tells, the residual last where there is one), and "path":
- * "continue" or "anew" (the default). What came of a row is in the statuses of sinew_run.
+ * left out: the usual ones and those of the words of "want", which sinew_fields tells, the residual last
+ * where there is one), and "path": "continue" or "anew" (the default). The word of "want" that an output goes
+ * with need not be given. What came of a row is in the statuses of sinew_run.
  *
  *     {"query": "forward", "inputs": "$inputs", "outputs": {"position": "pose.position"}, "path": "continue"}
  *     {"query": "forward", "inputs": ["$L1", 0.42, "$L3"], "outputs": {"z": "pose.position[2]"}}
  *
  * Where that fails *batch is NULL and *error says what is wrong: all that would be an error of every row,
  * unknown fields, fields without effect on this robot, lists of a wrong length, in the words of an answer to
- * one row. What the numbers of a row decide, such as a length out of range, its status says. A batch may be
- * run by several threads at once. */
+ * one row; outputs that no answer has; and what is no column, lists as long as they are, such as those of a
+ * shape, and the solutions of "all" where no output names a number of them. What the numbers of a row decide,
+ * such as a length out of range, its status says. A batch may be run by several threads at once. */
 SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question, size_t size,
                                   sinew_batch** batch, char** error);
 

@@ -7,6 +7,7 @@
 #include "io/reader.hpp"
 #include "query/batch/answer_path.hpp"
 #include "query/batch/batch_state.hpp"
+#include "query/batch/choose_outputs.hpp"
 #include "query/batch/field_layout.hpp"
 #include "query/batch/row_places.hpp"
 #include "query/tree_session.hpp"
@@ -17,8 +18,6 @@
 
 namespace sinew::inline v1 {
 namespace {
-
-using Outputs = std::vector<std::pair<std::string, std::string>>;  ///< names, places in the answer
 
 std::string_view word(const Node& query, std::string_view key) {
   const Node* found = query.find(key);
@@ -159,70 +158,10 @@ class NameReader {
   std::vector<Named> found_;
 };
 
-/// Of what tendon pairs hold: of each leg both tendons, under the names that studies and Octave give them.
-Outputs usual_tendons(const Robot& robot) {
-  Outputs usual;
-  for (int i = 0; i < leg_count(robot); ++i)
-    for (const char* field : {"tendon_lengths", "tensions"})
-      usual.emplace_back(fmt::format("legs_{}_{}", i, field), fmt::format("legs[{}].{}", i, field));
-  return usual;
-}
-
-Outputs usual_solution(const Robot& robot, std::string_view query) {
-  if (query == "inverse")
-    return robot.model() == Model::prb ? usual_tendons(robot) : Outputs{{"inputs", "inputs"}};
-  if (query == "velocity") {
-    Outputs usual{{"position_index", "indices.position"}, {"rotation_index", "indices.rotation"}};
-    if (!has_rods(robot)) usual.insert(usual.begin(), {"determinant", "determinant"});
-    return usual;
-  }
-  if (robot.planar()) return {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
-  return {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
-}
-
-/// What people ask a question for, and how well it is solved, where that is not in closed form.
-Outputs usual_outputs(const Robot& robot, std::string_view query) {
-  if (query == "diagram") return {{"margin", "margin"}, {"over_tension", "over_tension"}};
-  if (query == "identify") return {{"rms", "errors.fitted.rms"}, {"noise", "noise"}};
-  const std::pair<std::string, std::string> residual{"residual", "residual"};
-  if (robot.serial()) {
-    if (query == "velocity") return {{"J", "J"}, {"K", "K"}};
-    Outputs usual{{"position", "tip.position"}, {"quaternion", "tip.quaternion"}, {"changes", "changes"}};
-    if (query == "inverse") {
-      usual.emplace_back("configuration", "configuration");
-      usual.push_back(residual);
-    }
-    return usual;
-  }
-  Outputs usual;
-  if (const ArmLegs* legs = robot.arm_legs()) {
-    if (legs->is_planar)
-      usual = {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
-    else
-      usual = {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
-    usual.insert(usual.end(), {{"tensions", "tensions"}, {"changes", "changes"}});
-    if (query == "statics") usual.emplace_back("wrench", "wrench");
-  } else if (robot.arm()) {
-    usual = {{"position", "tip.position"},
-             {"quaternion", "tip.quaternion"},
-             {"tensions", "tensions"},
-             {"changes", "changes"}};
-    if (query == "statics") usual.emplace_back("wrench", "wrench");
-    if (query == "track") {
-      for (const char* name : {"end_tensions", "motor_work", "friction_loss"}) usual.emplace_back(name, name);
-      return usual;
-    }
-  } else {
-    usual = usual_solution(robot, query);
-  }
-  usual.push_back(residual);
-  return usual;
-}
-
 /// The fields of a batch that are not its query's.
 struct Told {
   bool is_path = false;
-  Outputs outputs;
+  BatchOutputs outputs;
 };
 Told read_told(const Document& asked, Errors& errors) {
   Told told;
@@ -273,7 +212,8 @@ bool put_own_numbers(Node& settings, const Document& robot, Errors& errors) {
 /// What is wrong with every row, whatever its numbers are: fields that are unknown or of no effect, lists of
 /// a wrong length, names in place of words. Numbers that are out of range are the rows' to tell, and so is
 /// that the robot has no answer: that is a status.
-Errors errors_of_all_rows(const Document& robot, const Node& query) {
+/// @param has_answers whether the robot has answers to it
+Errors errors_of_all_rows(const Document& robot, const Node& query, bool& has_answers) {
   const std::vector<std::string> places = places_of_names(query);
   Document trial{"query", query};
   Errors errors;
@@ -285,8 +225,8 @@ Errors errors_of_all_rows(const Document& robot, const Node& query) {
   auto session = TreeSession::open(robot);
   errors = session ? session->errors_of(trial) : session.error();
   const auto is_lacking = [](const Error& error) { return error.code == "not_available"; };
-  if (std::ranges::all_of(errors, is_lacking) || (!is_whole && std::ranges::any_of(errors, is_lacking)))
-    return {};
+  has_answers = std::ranges::none_of(errors, is_lacking);
+  if (std::ranges::all_of(errors, is_lacking) || (!is_whole && !has_answers)) return {};
   const bool chooses_section = std::ranges::find(places, "section") != places.end();
   std::erase_if(errors, [&](const Error& error) {
     const auto is = [&](std::string_view code) { return error.code == code; };
@@ -331,11 +271,16 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
              "\"$" + question.inputs.back() + "\" is a name and a number of a list; give another"});
     }
   }
-  if (errors.empty()) errors = errors_of_all_rows(document, question.query.root);
+  bool has_answers = false;
+  if (errors.empty()) errors = errors_of_all_rows(document, question.query.root, has_answers);
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   if (state->inputs.empty())
     return failure("no_inputs", "query", "nothing goes in: write texts like \"$x\" where its numbers go");
-  if (told.outputs.empty()) told.outputs = usual_outputs(as_it_is, kind);
+  if (has_answers)
+    errors = choose_outputs(as_it_is, layouts, told.outputs, question);
+  else if (told.outputs.empty())
+    told.outputs = usual_outputs(as_it_is, kind);
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
   for (auto& [name, place] : told.outputs) {
     const FieldLayout layout = layouts.output(place);
     state->outputs.push_back(field_of(as_it_is, name, place, layout));
