@@ -718,6 +718,24 @@ TEST(Batch, RefusesOutputsThatNoAnswerHas) {
   EXPECT_EQ(said("3-rfr", R"({"query":"statics","tensions":"$t")", "sensitivity[0][1]"), "");
 }
 
+/// A name stands for numbers, which no pose is: names go into it.
+TEST(Batch, RefusesNamesForMaps) {
+  const auto said = [](const char* robot, const char* question) {
+    const auto batch = prepared(robot, question);
+    return batch ? std::string() : to_string(batch.error());
+  };
+  EXPECT_EQ(said("3-rfr", R"({"query":"inverse","pose":"$pose"})"),
+            R"(pose: a pose is a map; give names in it, {"x": "$x", "y": "$y", "phi": "$phi"} [wrong_type])");
+  EXPECT_EQ(said("3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":"$y","phi":"$phi"}})"), "");
+  EXPECT_EQ(
+      said("6-ufs", R"({"query":"inverse","pose":"$pose"})"),
+      R"(pose: a pose is a map; give names in it, {"position": "$position", "quaternion": "$quaternion"} [wrong_type])");
+  for (const char* robot : {"3pfs-g2", "3prs"})
+    EXPECT_EQ(
+        said(robot, R"({"query":"inverse","pose":"$pose"})"),
+        R"(pose: of this robot give "independent": {"z": "$z", "e1": "$e1", "e2": "$e2"} [wrong_type])");
+}
+
 TEST(Batch, RefusesRowsWhoseNumbersAreNone) {
   const double nan = std::nan(""), infinite = INFINITY;
   for (const auto& [robot, question] :

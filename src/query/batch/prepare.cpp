@@ -10,6 +10,7 @@
 #include "query/batch/choose_outputs.hpp"
 #include "query/batch/field_layout.hpp"
 #include "query/batch/row_places.hpp"
+#include "query/fields/fields.hpp"
 #include "query/tree_session.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/robot/arm_legs.hpp"
@@ -125,6 +126,8 @@ class NameReader {
     if (name.empty())
       errors_.push_back({"missing_key", place,
                          fmt::format("{} = \"$\" has no name; write one after it, like \"$x\"", place)});
+    else if (const std::string why = why_no_name(place); !why.empty())
+      errors_.push_back({"wrong_type", place, why});
     else if (place == "id")
       errors_.push_back(
           {"no_effect", place, "id is repeated in single answers; rows have none, leave it out"});
@@ -133,6 +136,30 @@ class NameReader {
     else
       compare(*before, place, layout);
     if (!layout.shape.empty()) node = single_numbers(node.text, layout);
+  }
+
+  /// A name stands for numbers: what is made of maps and texts has names in it.
+  std::string why_no_name(std::string_view place) const {
+    const auto* field = find_field(place);
+    using Shape = FieldShape;
+    if (!field) return {};
+    if (field->shape == Shape::pose && !is_held_by_three())
+      return fmt::format("a pose is a map; give names in it, {}",
+                         layouts_.input("position").size() == 2
+                             ? R"({"x": "$x", "y": "$y", "phi": "$phi"})"
+                             : R"({"position": "$position", "quaternion": "$quaternion"})");
+    if (field->shape == Shape::pose || field->shape == Shape::independent)
+      return R"(of this robot give "independent": {"z": "$z", "e1": "$e1", "e2": "$e2"})";
+    for (const Shape shape : {Shape::places, Shape::target, Shape::growing_load, Shape::settings,
+                              Shape::point_loads, Shape::path_points, Shape::measured_rows})
+      if (field->shape == shape) return "it is made of several fields; give names in these";
+    return {};
+  }
+
+  /// Of such a robot z, e1 and e2 are asked for: few whole poses are.
+  bool is_held_by_three() const {
+    const bool has_legs = !robot_.serial() && !robot_.arm() && !robot_.arm_legs();
+    return has_legs && !robot_.planar() && input_count(robot_) == 3;
   }
 
   /// The same name at two places: the same numbers.
