@@ -96,8 +96,10 @@ SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question
  *     {"inputs": [{"name": "inputs", "unit": "m", "rank": 1, "shape": [3]}],
  *      "outputs": [{"name": "position", "unit": "m", "rank": 1, "shape": [3]}], "method": "rods in lanes"}
  *
- * Single numbers have rank 0 and shape []. Units are SI, "" of plain numbers, "N, N m" where those of a field
- * differ. NULL where there is no memory for it. */
+ * Single numbers have rank 0 and shape []. Units are SI, "" of plain numbers. Where those of a field differ
+ * all are named, row after row in the order in which they first stand: "N, N m" of a wrench, "N/m, N, N m" of
+ * a stiffness, "1, rad/m" of a sensitivity to lengths. There 1 is that of plain numbers, and radians are left
+ * out of denominators. NULL where there is no memory for it. */
 SINEW_C_API char* sinew_fields(const sinew_batch* batch);
 
 /* A field of all rows as it lies in memory: its first number; how many bytes further the next row's is; and

@@ -27,7 +27,7 @@ class SINEW_API Batch {
   /// What goes in or comes out of every row: a number, or an array of numbers.
   struct Field {
     std::string name;
-    std::string unit;                ///< SI; empty for plain numbers, `N, N m` where those of an array differ
+    std::string unit;  ///< SI; empty for plain numbers; where those of an array differ as of `sinew_fields`
     std::vector<std::size_t> shape;  ///< empty of a single number
 
     std::size_t size() const;  ///< numbers of a row

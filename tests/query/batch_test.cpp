@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/parse.hpp"
+#include "query/fields/answer_fields.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"
 #include "sinew/solve/report.hpp"
@@ -639,6 +640,51 @@ TEST(Batch, HasColumnsOfWhatIsWanted) {
       "all: rows have more and fewer solutions, which are no column; name outputs, such as count, or ask "
       "such rows one by one [no_effect]");
   EXPECT_EQ(of("3-rfr", R"({"query":"forward","inputs":"$l","all":true,"outputs":{"n":"count"}})"), "n");
+}
+
+/// Units of matrices are those of their blocks.
+TEST(Batch, TellsUnitsOfBlocks) {
+  const auto unit = [](const char* robot, const char* question, const char* place) {
+    const auto batch = prepared(robot, question + std::string(R"(,"outputs":{"n":")") + place + "\"}}");
+    if (!batch) return to_string(batch.error());
+    std::string told = batch->outputs()[0].unit;
+    const std::string table = ", " + std::string(find_answer_field(place)->unit) + ", ";
+    for (std::size_t at = 0; at < told.size(); at = std::min(told.find(", ", at), told.size() - 2) + 2)
+      EXPECT_NE(table.find(", " + told.substr(at, told.find(", ", at) - at) + ", "), std::string::npos)
+          << place << ": " << told << " of " << table;
+    return told;
+  };
+  const char *lengths = R"({"query":"forward","inputs":"$l")",
+             *tensions = R"({"query":"statics","tensions":"$t")",
+             *bends = R"({"query":"forward","configuration":"$c")",
+             *pulled = R"({"query":"forward","tensions":"$t")",
+             *paid_out = R"({"query":"forward","changes":"$c")";
+  EXPECT_EQ(unit("3pfs-g2", lengths, "stiffness"), "N/m, N, N m");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "stiffness[0]"), "N/m, N");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "stiffness[4][1]"), "N");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "sensitivity"), "1, rad/m");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "J"), "N/m, N, N m");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "K"), "N/m, N");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "margins.strain"), "");
+  EXPECT_EQ(unit("3-rfr", lengths, "J"), "m, m^2");
+  EXPECT_EQ(unit("3-rfr", lengths, "K"), "m");
+  EXPECT_EQ(unit("3-rfr", lengths, "U"), "1, rad/m");
+  EXPECT_EQ(unit("3-rfrr", lengths, "K"), "m^2, m");
+  EXPECT_EQ(unit("3-rfrr", lengths, "sensitivity"), "m, 1, rad/m");
+  EXPECT_EQ(unit("3prs", lengths, "J"), "m, m^2, 1");
+  EXPECT_EQ(unit("3-rfr", tensions, "compliance"), "m/N, 1/N, rad/N, rad/(N m)");
+  EXPECT_EQ(unit("3-rfr", tensions, "wrench"), "N, N m");
+  EXPECT_EQ(unit("nottingham-tpcj", bends, "J"), "m, 1");
+  EXPECT_EQ(unit("nottingham-tpcj", bends, "K"), "m");
+  const char* sensed =
+      R"({"query":"statics","inputs":[0.43,0.43,0.43,0.43,0.43,0.43],"axial_forces":"$f","deviation":0.1)";
+  EXPECT_EQ(
+      prepared("6pfs", sensed + std::string(R"(,"outputs":{"n":"covariance"}})")).value().outputs()[0].unit,
+      "N^2, N^2 m, N^2 m^2");
+  EXPECT_EQ(unit("6pfs", sensed, "wrench_sensitivity"), "1, m");
+  EXPECT_EQ(unit("two-segment", pulled, "U"), "m/N, rad/N");
+  EXPECT_EQ(unit("two-segment", paid_out, "U"), "1, rad/m");
+  EXPECT_EQ(unit("two-segment", pulled, "answers_by_wrench"), "m/N, 1/N");
 }
 
 /// A place that goes with a word of `want` needs no more than its name.

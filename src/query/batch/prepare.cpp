@@ -8,7 +8,7 @@
 #include "query/batch/answer_path.hpp"
 #include "query/batch/batch_state.hpp"
 #include "query/batch/choose_outputs.hpp"
-#include "query/batch/field_layout.hpp"
+#include "query/batch/field_units.hpp"
 #include "query/batch/row_places.hpp"
 #include "query/fields/fields.hpp"
 #include "query/tree_session.hpp"
@@ -45,39 +45,6 @@ Robot as_asked(const Document& document, const Robot& robot, const Node& query) 
   return asked;
 }
 
-/// Of a number of a question or an answer; of inputs it is the robot's.
-std::string unit_of_number(const Robot& robot, std::string_view place) {
-  const std::string_view field = place.substr(0, place.find('['));
-  const int index = field.size() < place.size() ? std::atoi(place.data() + field.size() + 1) : 0;
-  const bool is_linear = index < (robot.planar() ? 2 : 3);
-  if (field == "inputs" && !robot.serial()) {
-    const auto inputs = inputs_of(robot);
-    const auto one = static_cast<std::size_t>(index);
-    return one < inputs.size() ? std::string(unit(inputs[one].dimension)) : std::string();
-  }
-  if (field == "wrench" || field == "following" || field == "until.wrench" || field == "to.wrench")
-    return is_linear ? "N" : "N m";
-  if (field == "twist") return is_linear ? "m/s" : "rad/s";
-  if (field == "gravity") return "m/s^2";
-  if (field == "lengths") return "m";
-  if (field == "angles") return "rad";
-  if (field == "axial_forces" || field == "measured_tensions" || field == "tensions") return "N";
-  if (field == "distributed" || field == "distributed_following") return "N/m";
-  return std::string(unit_of_answer(place));
-}
-
-Batch::Field field_of(const Robot& robot, std::string name, const std::string& place,
-                      const FieldLayout& layout) {
-  Batch::Field field{std::move(name), {}, layout.shape};
-  std::vector<std::string> units;
-  for (std::size_t i = 0; i < layout.size(); ++i) {
-    std::string one = unit_of_number(robot, place + layout.suffix(i));
-    if (std::ranges::find(units, one) == units.end()) units.push_back(std::move(one));
-  }
-  field.unit = fmt::format("{}", fmt::join(units, ", "));
-  return field;
-}
-
 /// Texts for single numbers, `$name[1]`, in place of one for a list.
 Node single_numbers(const std::string& text, const FieldLayout& layout) {
   Node list;
@@ -102,9 +69,10 @@ struct Named {
 /// Finds names, and puts single numbers in place of lists.
 class NameReader {
  public:
-  NameReader(const Robot& robot, const FieldLayouts& layouts, Errors& errors)
+  NameReader(const Robot& robot, const FieldLayouts& layouts, const FieldUnits& units, Errors& errors)
       : robot_(robot),
         layouts_(layouts),
+        units_(units),
         errors_(errors) {}
 
   std::vector<Named> read(Node& query) {
@@ -171,8 +139,8 @@ class NameReader {
     };
     if (before.layout.shape != layout.shape)
       return say(numbers(layout.size()), fmt::format("{}", before.layout.size()));
-    const std::string here = field_of(robot_, {}, place, layout).unit,
-                      there = field_of(robot_, {}, before.place, layout).unit;
+    const std::string here = units_.field({}, place, layout).unit,
+                      there = units_.field({}, before.place, layout).unit;
     if (here != there && !here.empty() && !there.empty()) say(here, there);
   }
   static std::string numbers(std::size_t count) {
@@ -181,6 +149,7 @@ class NameReader {
 
   const Robot& robot_;
   const FieldLayouts& layouts_;
+  const FieldUnits& units_;
   Errors& errors_;
   std::vector<Named> found_;
 };
@@ -288,8 +257,10 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
   const Robot as_it_is = as_asked(document, *robot, question.query.root);
   const std::string kind(word(question.query.root, "query"));
   const FieldLayouts layouts(as_it_is, kind);
-  for (const auto& [name, place, layout] : NameReader(as_it_is, layouts, errors).read(question.query.root)) {
-    state->inputs.push_back(field_of(as_it_is, name, place, layout));
+  const FieldUnits units(as_it_is, question.query.root);
+  for (const auto& [name, place, layout] :
+       NameReader(as_it_is, layouts, units, errors).read(question.query.root)) {
+    state->inputs.push_back(units.field(name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) {
       question.inputs.push_back(name + layout.suffix(i));
       if (std::ranges::count(question.inputs, question.inputs.back()) > 1)
@@ -310,7 +281,7 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   for (auto& [name, place] : told.outputs) {
     const FieldLayout layout = layouts.output(place);
-    state->outputs.push_back(field_of(as_it_is, name, place, layout));
+    state->outputs.push_back(units.field(name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) question.outputs.push_back(place + layout.suffix(i));
   }
   state->kind = choose_sampler(question);
