@@ -757,6 +757,8 @@ TEST(Batch, RefusesOutputsThatNoAnswerHas) {
   starts(said("3-rfr", forward, "backbones"),
          "outputs.n: backbones is as long as it is, which is no column;");
   starts(said("3-rfr", forward, "count"), "outputs.n: count goes with all; add that to the question");
+  starts(said("3-rfr", R"({"query":"forward","inputs":"$l","all":false)", "count"),
+         "outputs.n: count goes with");
   starts(said("3pfs-g2", forward, "pose.position[3]"),
          "outputs.n: pose.position has no [3]; give an index from 0 to 2");
   starts(said("3-rfr", R"({"query":"statics","tensions":"$t")", "sensitivity"),

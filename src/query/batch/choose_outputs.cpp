@@ -89,7 +89,7 @@ class OutputChooser {
       const AnswerWord& root = *found->root;
       const AnswerWord& last = *found->last;
       for (const AnswerWord* word : {&root, &last})
-        if (!word->with.empty() && !query_.find(word->with)) {
+        if (!has_what_it_goes_with(*word, query_)) {
           refuse(fmt::format("{} goes with {}; add that to the question", place, word->with));
           break;
         }

@@ -315,6 +315,12 @@ std::string_view hint_of(std::string_view written, std::span<const std::string> 
 
 using answer_words::asking, answer_words::joined_place;
 
+bool has_what_it_goes_with(const AnswerWord& word, const Node& query) {
+  if (word.with.empty()) return true;
+  const Node* field = query.find(word.with);
+  return field && field->kind != Node::Kind::null && (field->kind != Node::Kind::boolean || field->boolean);
+}
+
 AnswerPlaces::AnswerPlaces(const Robot& robot, Ask ask)
     : bits_(answer_words::bits_of(robot) | asking({ask})),
       legs_(answer_words::bits_of_legs(robot)),
@@ -422,7 +428,7 @@ std::vector<std::string> AnswerPlaces::given_by(Want want, const Node& query) co
                            std::ptrdiff_t leg) -> void {
     for (const AnswerWord* word : words(group, leg)) {
       if (before.empty() && word->want != want) continue;
-      if (word->is_rare || (!word->with.empty() && !query.find(word->with))) continue;
+      if (word->is_rare || !has_what_it_goes_with(*word, query)) continue;
       const std::string place = joined_place(before, word->name);
       if (word->part == AnswerPart::value) places.push_back(place);
       if (word->part == AnswerPart::map) self(self, word->below, place, leg);

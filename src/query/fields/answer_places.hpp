@@ -42,6 +42,9 @@ struct AnswerWord {
   bool is_rare = false;           ///< few answers have it
 };
 
+/// Whether a question has the field that a word goes with, and it is neither null nor false.
+SINEW_API bool has_what_it_goes_with(const AnswerWord& word, const Node& query);
+
 /// The answers of a robot to one kind of question.
 class SINEW_API AnswerPlaces {
  public:
