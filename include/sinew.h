@@ -78,16 +78,18 @@ SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t
 
 /* Prepares a question for many rows: a query in which texts "$name" stand for numbers, or for whole lists
  * whose length the robot knows, with "outputs": {"name": "place in the answer"} (numbers, lists or matrices;
- * left out: the usual ones, which sinew_fields tells, the residual last where there is one), and "path":
- * "continue" or "anew" (the default). What came of a row is in the statuses of sinew_run.
+ * left out: the usual ones and those of the words of "want", which sinew_fields tells, the residual last
+ * where there is one), and "path": "continue" or "anew" (the default). The word of "want" that an output goes
+ * with need not be given. What came of a row is in the statuses of sinew_run.
  *
  *     {"query": "forward", "inputs": "$inputs", "outputs": {"position": "pose.position"}, "path": "continue"}
  *     {"query": "forward", "inputs": ["$L1", 0.42, "$L3"], "outputs": {"z": "pose.position[2]"}}
  *
  * Where that fails *batch is NULL and *error says what is wrong: all that would be an error of every row,
  * unknown fields, fields without effect on this robot, lists of a wrong length, in the words of an answer to
- * one row. What the numbers of a row decide, such as a length out of range, its status says. A batch may be
- * run by several threads at once. */
+ * one row; outputs that no answer has; and what is no column, lists as long as they are, such as those of a
+ * shape, and the solutions of "all" where no output names a number of them. What the numbers of a row decide,
+ * such as a length out of range, its status says. A batch may be run by several threads at once. */
 SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question, size_t size,
                                   sinew_batch** batch, char** error);
 
@@ -96,8 +98,10 @@ SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question
  *     {"inputs": [{"name": "inputs", "unit": "m", "rank": 1, "shape": [3]}],
  *      "outputs": [{"name": "position", "unit": "m", "rank": 1, "shape": [3]}], "method": "rods in lanes"}
  *
- * Single numbers have rank 0 and shape []. Units are SI, "" of plain numbers, "N, N m" where those of a field
- * differ. NULL where there is no memory for it. */
+ * Single numbers have rank 0 and shape []. Units are SI, "" of plain numbers. Where those of a field differ
+ * all are named, row after row in the order in which they first stand: "N, N m" of a wrench, "N/m, N, N m" of
+ * a stiffness, "1, rad/m" of a sensitivity to lengths. There 1 is that of plain numbers, and radians are left
+ * out of denominators. NULL where there is no memory for it. */
 SINEW_C_API char* sinew_fields(const sinew_batch* batch);
 
 /* A field of all rows as it lies in memory: its first number; how many bytes further the next row's is; and

@@ -27,7 +27,7 @@ class SINEW_API Batch {
   /// What goes in or comes out of every row: a number, or an array of numbers.
   struct Field {
     std::string name;
-    std::string unit;                ///< SI; empty for plain numbers, `N, N m` where those of an array differ
+    std::string unit;  ///< SI; empty for plain numbers; where those of an array differ as of `sinew_fields`
     std::vector<std::size_t> shape;  ///< empty of a single number
 
     std::size_t size() const;  ///< numbers of a row
@@ -50,11 +50,13 @@ class SINEW_API Batch {
   /// @param robot a robot file's document
   /// @param question a query in which texts `$name` stand for numbers, or for whole lists whose length the
   ///     robot knows (`inputs: $lengths`), and which may have `outputs: {name: place in the answer}`
-  ///     (`pose.position`, `J`, `pose.position[2]`, `type_1.count`), left out the usual ones of the question,
-  ///     and `path: continue` (each row begins where the one before ended) or `anew`, the default
+  ///     (`pose.position`, `J`, `pose.position[2]`, `type_1.count`), left out the usual ones of the question
+  ///     and those that the words of its `want` give, and `path: continue` (each row begins where the one
+  ///     before ended) or `anew`, the default
   /// Errors: those of robot files; `no_inputs`, `ambiguous` where a name stands for different things,
-  /// `unknown_path` where an output is no place; and the error that a session would answer to every row,
-  /// whatever its numbers are. That the robot has no answer (`unsupported`) rows say.
+  /// `unknown_path` where no answer has such an output; `no_effect` where what is wanted is no column; and
+  /// the error that a session would answer to every row, whatever its numbers are. That the robot has no
+  /// answer (`unsupported`) rows say.
   static Expected<Batch> prepare(const Document& robot, const Document& question);
 
   std::span<const Field> inputs() const;   ///< in the order in which they stand in the question

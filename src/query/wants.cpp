@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/reader.hpp"
 #include "query/fields/fields.hpp"
 #include "query/handlers.hpp"
@@ -15,8 +17,6 @@ std::span<const std::string_view> want_names() {
   return words;
 }
 
-constexpr Wants places{Want::pose, Want::legs};
-
 std::string names_of(Wants wants) {
   std::vector<std::string_view> known;
   for (std::size_t k = 0; k < want_names().size(); ++k)
@@ -25,6 +25,28 @@ std::string names_of(Wants wants) {
 }
 
 }  // namespace
+
+Wants named_wants(const Node& query) {
+  Wants named;
+  const Node* list = query.find("want");
+  const auto& words = want_names();
+  if (list)
+    for (const Node& item : list->items)
+      if (const auto word = std::ranges::find(words, item.text); word != words.end())
+        named = named | Wants{static_cast<Want>(word - words.begin())};
+  return named;
+}
+
+void add_want(Node& query, Want want) {
+  Node* list = query.find("want");
+  if (!list || list->kind != Node::Kind::list) {
+    std::erase_if(query.members, [](const Member& field) { return field.key == "want"; });
+    query.members.push_back({.key = "want", .value = {}});
+    list = &query.members.back().value;
+    list->kind = Node::Kind::list;
+  }
+  list->items.push_back(make_node(want_names()[static_cast<std::size_t>(want)]));
+}
 
 Wants read_wants(Question& question) {
   return read_wants(question, usual_of(question.ask), question.handlers.wants);
@@ -47,7 +69,7 @@ Wants read_wants(Question& question, Wants usual, Wants known) {
       word.refuse("not_available", fmt::format("this robot, by this model, answers {}", names_of(known)));
     named = named | Wants{want};
   }
-  return (named & places).is_empty() ? usual | named : (usual - places) | named;
+  return wanted_of(usual, named);
 }
 
 void refuse_without(Question& question, Wants wants, Want word, std::initializer_list<const char*> fields) {

@@ -53,11 +53,24 @@ constexpr Wants usual_of(Ask ask) {
   return usual_wants;
 }
 
+/// The same of robots on rods: what senses a wrench tells no more of the rods.
+constexpr Wants usual_of_rods(Ask ask) { return ask == Ask::statics ? Wants{Want::pose} : usual_of(ask); }
+
+/// What is usual, and what a list names. Pose and legs are there unless it names one of them.
+constexpr Wants wanted_of(Wants usual, Wants named) {
+  return (named & usual_wants).is_empty() ? usual | named : (usual - usual_wants) | named;
+}
+
 /// `want`: what is usual, and what the list names. Pose and legs are there unless it names one of them: then
 /// those that it names. Other words than the robot's mechanics can tell are refused.
 Wants read_wants(Question& question);
 /// The same of a question that differs from others to these robots.
 Wants read_wants(Question& question, Wants usual, Wants known);
+
+/// The words that a question's `want` names, known ones alone.
+Wants named_wants(const Node& query);
+/// Names one more.
+void add_want(Node& query, Want want);
 
 /// Says of fields that go with a word which is not wanted that they have no effect.
 void refuse_without(Question& question, Wants wants, Want word, std::initializer_list<const char*> fields);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/parse.hpp"
+#include "query/fields/answer_fields.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"
 #include "sinew/solve/report.hpp"
@@ -593,6 +594,196 @@ TEST(Batch, LeavesToRowsWhatTheirNumbersDecide) {
   }
 }
 
+/// Names and shapes of what comes out.
+std::string columns(const Batch& batch) {
+  std::string all;
+  for (const Batch::Field& field : batch.outputs()) {
+    all += (all.empty() ? "" : " ") + field.name;
+    for (const std::size_t length : field.shape) all += "," + std::to_string(length);
+  }
+  return all;
+}
+
+/// What `want` names comes out, as one row by itself has it.
+TEST(Batch, HasColumnsOfWhatIsWanted) {
+  const Batch stiff =
+      prepared("3pfs-g2", R"({"query":"forward","inputs":"$l","want":["stiffness","margins"]})").value();
+  EXPECT_EQ(columns(stiff), "position,3 quaternion,4 stiffness,6,6 margins_fold margins_strain residual");
+  const std::vector<double> lengths{0.44, 0.42, 0.41};
+  const Rows found = run(stiff, lengths);
+  const Json alone = Json::parse(Session::open("3pfs-g2").value().answer(
+      R"({"query":"forward","inputs":[0.44,0.42,0.41],"want":["stiffness","margins"]})"));
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_NEAR(found.outputs[7 + 6 * i + k], alone["stiffness"][i][k].get<double>(), 1e-6);
+  EXPECT_NEAR(found.outputs[43], alone["margins"]["fold"].get<double>(), 1e-9);
+  const auto of = [](const char* robot, const char* question) {
+    const auto batch = prepared(robot, question);
+    return batch ? columns(*batch) : to_string(batch.error());
+  };
+  EXPECT_EQ(of("3-rfr", R"({"query":"forward","inputs":"$l","want":["velocity"],"twist":[0,0,1]})"),
+            "x y phi J,3,3 K,3,3 U,3,3 determinant indices_condition indices_condition_homogenised "
+            "indices_position indices_rotation type_2_singular type_2_rank rates,3 residual");
+  EXPECT_EQ(
+      of("3pfs-g2", R"({"query":"inverse","independent":{"z":"$z","e1":0,"e2":0},"want":["stability"]})"),
+      "inputs,3 stable unstable_directions residual");
+  EXPECT_EQ(of("3-rfr", R"({"query":"forward","inputs":"$l","want":["sensitivity","pose"]})"),
+            "x y phi sensitivity,3,3 residual");
+  EXPECT_EQ(of("3prs", R"({"query":"forward","inputs":"$l","want":["legs"],"outputs":{}})").substr(0, 66),
+            "position,3 quaternion,4 legs_0_elbow legs_0_slide legs_0_carriage,");
+  EXPECT_EQ(
+      of("3-rfr", R"({"query":"forward","inputs":"$l","want":["shape"]})"),
+      "want: what shape answers is as long as it is, which is no column; name outputs, such as one number "
+      "of its lists, or ask such rows one by one [no_effect]");
+  EXPECT_EQ(
+      of("3-rfr", R"({"query":"forward","inputs":"$l","all":true})"),
+      "all: rows have more and fewer solutions, which are no column; name outputs, such as count, or ask "
+      "such rows one by one [no_effect]");
+  EXPECT_EQ(of("3-rfr", R"({"query":"forward","inputs":"$l","all":true,"outputs":{"n":"count"}})"), "n");
+}
+
+/// Units of matrices are those of their blocks.
+TEST(Batch, TellsUnitsOfBlocks) {
+  const auto unit = [](const char* robot, const char* question, const char* place) {
+    const auto batch = prepared(robot, question + std::string(R"(,"outputs":{"n":")") + place + "\"}}");
+    if (!batch) return to_string(batch.error());
+    std::string told = batch->outputs()[0].unit;
+    const std::string table = ", " + std::string(find_answer_field(place)->unit) + ", ";
+    for (std::size_t at = 0; at < told.size(); at = std::min(told.find(", ", at), told.size() - 2) + 2)
+      EXPECT_NE(table.find(", " + told.substr(at, told.find(", ", at) - at) + ", "), std::string::npos)
+          << place << ": " << told << " of " << table;
+    return told;
+  };
+  const char *lengths = R"({"query":"forward","inputs":"$l")",
+             *tensions = R"({"query":"statics","tensions":"$t")",
+             *bends = R"({"query":"forward","configuration":"$c")",
+             *pulled = R"({"query":"forward","tensions":"$t")",
+             *paid_out = R"({"query":"forward","changes":"$c")";
+  EXPECT_EQ(unit("3pfs-g2", lengths, "stiffness"), "N/m, N, N m");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "stiffness[0]"), "N/m, N");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "stiffness[4][1]"), "N");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "sensitivity"), "1, rad/m");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "J"), "N/m, N, N m");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "K"), "N/m, N");
+  EXPECT_EQ(unit("3pfs-g2", lengths, "margins.strain"), "");
+  EXPECT_EQ(unit("3-rfr", lengths, "J"), "m, m^2");
+  EXPECT_EQ(unit("3-rfr", lengths, "K"), "m");
+  EXPECT_EQ(unit("3-rfr", lengths, "U"), "1, rad/m");
+  EXPECT_EQ(unit("3-rfrr", lengths, "K"), "m^2, m");
+  EXPECT_EQ(unit("3-rfrr", lengths, "sensitivity"), "m, 1, rad/m");
+  EXPECT_EQ(unit("3prs", lengths, "J"), "m, m^2, 1");
+  EXPECT_EQ(unit("3-rfr", tensions, "compliance"), "m/N, 1/N, rad/N, rad/(N m)");
+  EXPECT_EQ(unit("3-rfr", tensions, "wrench"), "N, N m");
+  EXPECT_EQ(unit("nottingham-tpcj", bends, "J"), "m, 1");
+  EXPECT_EQ(unit("nottingham-tpcj", bends, "K"), "m");
+  const char* sensed =
+      R"({"query":"statics","inputs":[0.43,0.43,0.43,0.43,0.43,0.43],"axial_forces":"$f","deviation":0.1)";
+  EXPECT_EQ(
+      prepared("6pfs", sensed + std::string(R"(,"outputs":{"n":"covariance"}})")).value().outputs()[0].unit,
+      "N^2, N^2 m, N^2 m^2");
+  EXPECT_EQ(unit("6pfs", sensed, "wrench_sensitivity"), "1, m");
+  EXPECT_EQ(unit("two-segment", pulled, "U"), "m/N, rad/N");
+  EXPECT_EQ(unit("two-segment", paid_out, "U"), "1, rad/m");
+  EXPECT_EQ(unit("two-segment", pulled, "answers_by_wrench"), "m/N, 1/N");
+}
+
+/// A place that goes with a word of `want` needs no more than its name.
+TEST(Batch, WantsWhatItsOutputsGoWith) {
+  struct Named {
+    const char *robot, *question, *place;
+    std::vector<double> numbers;
+  };
+  for (const auto& [robot, question, place, numbers] :
+       {Named{"3pfs-g2", R"({"query":"forward","inputs":"$l")", "stiffness[0][0]", {0.44, 0.42, 0.41}},
+        Named{"3pfs-g2",
+              R"({"query":"forward","inputs":"$l","want":["margins"])",
+              "legs[1].force[2]",
+              {0.44, 0.42, 0.41}},
+        Named{"3pfs-g2",
+              R"({"query":"forward","inputs":"$l","want":["legs"])",
+              "pose.position[2]",
+              {0.44, 0.42, 0.41}},
+        Named{"3pfs-g2",
+              R"({"query":"forward","inputs":"$l","path":"continue")",
+              "unstable_directions",
+              {0.44, 0.42, 0.41}},
+        Named{"3-rfr", R"({"query":"forward","inputs":"$l")", "indices.position", {0.19, 0.19, 0.188}},
+        Named{"3-rfr", R"({"query":"forward","inputs":"$l")", "backbones[0][7][1]", {0.19, 0.19, 0.188}},
+        Named{"3-rfr", R"({"query":"forward","inputs":"$l")", "type_1.count", {0.19, 0.19, 0.188}},
+        Named{"3-rfr", R"({"query":"statics","tensions":[["$a",0],[1,0],[1,0]])", "margins.strain", {1}},
+        Named{"two-segment", R"({"query":"forward","tensions":"$t")", "buckling_margin", {}},
+        Named{"nottingham-tpcj", R"({"query":"forward","configuration":"$c")", "J[0][1]",
+              std::vector<double>(10, 0.1)}}) {
+    const auto batch = prepared(robot, question + std::string(R"(,"outputs":{"n":")") + place + "\"}}");
+    ASSERT_TRUE(batch) << place << to_string(batch.error());
+    std::vector<double> row = numbers;
+    row.resize(width(batch->inputs()), 1);
+    const Rows found = run(*batch, row);
+    EXPECT_TRUE(std::isfinite(found.outputs.back())) << robot << ' ' << place;
+  }
+}
+
+TEST(Batch, RefusesOutputsThatNoAnswerHas) {
+  const auto said = [](const char* robot, const char* question, const char* place) {
+    const auto batch = prepared(robot, question + std::string(R"(,"outputs":{"n":")") + place + "\"}}");
+    return batch ? std::string() : to_string(batch.error());
+  };
+  const char* forward = R"({"query":"forward","inputs":"$l")";
+  const auto starts = [](const std::string& text, std::string_view with) {
+    EXPECT_TRUE(text.starts_with(with)) << text;
+  };
+  starts(said("3-rfr", forward, "poze.x"),
+         "outputs.n: no answer to forward has \"poze.x\" by this robot and model; did you mean \"pose.x\"? "
+         "There are: pose, inputs, legs, ");
+  starts(said("3-rfr", forward, "x"),
+         "outputs.n: no answer to forward has \"x\" by this robot and model; did you mean \"pose.x\"?");
+  starts(said("3-rfr", forward, "pose"),
+         "outputs.n: pose is no number; name one of its fields, such as pose.x");
+  starts(said("3-rfr", forward, "pose.position"),
+         "outputs.n: no answer to forward has \"pose.position\" by this robot and model. There are in pose: "
+         "x, y, phi.");
+  starts(said("3-rfr", forward, "legs[99].curvature"),
+         "outputs.n: there is no legs[99]; give a leg from 0 to 2");
+  starts(said("3-rfr", forward, "legs[0].force"),
+         "outputs.n: no answer to forward has \"legs[0].force\" by this robot and model; did you mean");
+  starts(said("3-rfr", forward, "legs"),
+         "outputs.n: legs is a list; name one of them, such as legs[0].curvature");
+  starts(said("3-rfr", forward, "legs[0]"),
+         "outputs.n: legs[0] is no number; name one of its fields, such as legs[0].curvature");
+  starts(said("3-rfr", forward, "stiffness"), "outputs.n: no answer to forward has \"stiffness\"");
+  starts(said("3-rfr", forward, "pose.x[0]"), "outputs.n: pose.x is one number; leave the index out");
+  starts(said("3-rfr", forward, "J[3]"), "outputs.n: J has no [3]; give an index from 0 to 2");
+  starts(said("3-rfr", forward, "J[0][3]"), "outputs.n: J[0] has no [3]; give an index from 0 to 2");
+  starts(said("3-rfr", forward, "backbones"),
+         "outputs.n: backbones is as long as it is, which is no column;");
+  starts(said("3-rfr", forward, "count"), "outputs.n: count goes with all; add that to the question");
+  starts(said("3-rfr", R"({"query":"forward","inputs":"$l","all":false)", "count"),
+         "outputs.n: count goes with");
+  starts(said("3pfs-g2", forward, "pose.position[3]"),
+         "outputs.n: pose.position has no [3]; give an index from 0 to 2");
+  starts(said("3-rfr", R"({"query":"statics","tensions":"$t")", "sensitivity"),
+         "outputs.n: sensitivity is as long as it is, which is no column; name one of its numbers");
+  EXPECT_EQ(said("3-rfr", R"({"query":"statics","tensions":"$t")", "sensitivity[0][1]"), "");
+}
+
+/// A name stands for numbers, which no pose is: names go into it.
+TEST(Batch, RefusesNamesForMaps) {
+  const auto said = [](const char* robot, const char* question) {
+    const auto batch = prepared(robot, question);
+    return batch ? std::string() : to_string(batch.error());
+  };
+  EXPECT_EQ(said("3-rfr", R"({"query":"inverse","pose":"$pose"})"),
+            R"(pose: a pose is a map; give names in it, {"x": "$x", "y": "$y", "phi": "$phi"} [wrong_type])");
+  EXPECT_EQ(said("3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":"$y","phi":"$phi"}})"), "");
+  EXPECT_EQ(
+      said("6-ufs", R"({"query":"inverse","pose":"$pose"})"),
+      R"(pose: a pose is a map; give names in it, {"position": "$position", "quaternion": "$quaternion"} [wrong_type])");
+  for (const char* robot : {"3pfs-g2", "3prs"})
+    EXPECT_EQ(
+        said(robot, R"({"query":"inverse","pose":"$pose"})"),
+        R"(pose: of this robot give "independent": {"z": "$z", "e1": "$e1", "e2": "$e2"} [wrong_type])");
+}
+
 TEST(Batch, RefusesRowsWhoseNumbersAreNone) {
   const double nan = std::nan(""), infinite = INFINITY;
   for (const auto& [robot, question] :
@@ -613,7 +804,9 @@ TEST(Batch, RefusesRowsWhoseNumbersAreNone) {
 
 TEST(Batch, Stops) {
   const Batch batch =
-      prepared("hexapod-torsion", R"({"query":"forward","inputs":["$a",0.5,0.5,0.5,0.5,0.5],"all":true})")
+      prepared(
+          "hexapod-torsion",
+          R"({"query":"forward","inputs":["$a",0.5,0.5,0.5,0.5,0.5],"all":true,"outputs":{"n":"count"}})")
           .value();
   std::atomic<bool> stop{false};
   std::jthread later([&] {

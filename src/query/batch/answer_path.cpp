@@ -100,7 +100,8 @@ std::optional<double> AnswerPath::number(const Value& answer) const {
 std::string_view unit_of_answer(std::string_view path) {
   const AnswerField* field = find_answer_field(path);
   const bool is_component = path.ends_with(']');
-  if (!field || path.ends_with(".count") || (field->shape == AnswerShape::direction && is_component))
+  const bool is_one = field && field->unit.find(", ") == std::string_view::npos;
+  if (!is_one || path.ends_with(".count") || (field->shape == AnswerShape::direction && is_component))
     return {};
   return field->unit;
 }

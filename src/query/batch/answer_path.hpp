@@ -28,7 +28,8 @@ class SINEW_API AnswerPath {
   bool counts_ = false;
 };
 
-/// The SI unit of a number of an answer, as far as its place tells; empty for plain numbers.
+/// The SI unit of a number of an answer, as far as its place tells; empty for plain numbers, and
+/// where numbers of its field have several.
 SINEW_API std::string_view unit_of_answer(std::string_view path);
 
 }  // namespace sinew::inline v1

@@ -15,6 +15,7 @@ struct BatchQuestion {
   std::vector<std::string> inputs;   ///< names of the columns that go in
   std::vector<std::string> outputs;  ///< places in the answers, see AnswerPath
   bool is_path = true;               ///< each row begins where the one before ended
+  bool is_without_legs = false;      ///< no output is told with the legs alone
   /// Of an input the texts that its numbers stand for; empty where they stand for themselves, or not there.
   std::vector<std::vector<std::string>> words = {};
 };

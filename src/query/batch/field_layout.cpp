@@ -221,6 +221,33 @@ FieldLayout FieldLayouts::of_arm(const AnswerField& field) const {
   return whole(field.shape);
 }
 
+std::string FieldLayouts::why_no_column(std::string_view place) const {
+  const AnswerField* field = find_answer_field(place);
+  std::string_view whole = place;
+  const Lengths indices = take_indices(whole);
+  const FieldLayout layout = output(whole);
+  const bool is_number =
+      !field || field->shape == AnswerShape::number || (field->shape == AnswerShape::direction && is_planar_);
+  if (layout.shape.empty() && !is_number)
+    return indices.empty() ? fmt::format(
+                                 "{} is as long as it is, which is no column; name one of its "
+                                 "numbers, such as {}[0], or ask such rows one by one",
+                                 place, place)
+                           : std::string();
+  if (layout.shape.empty())
+    return indices.empty() ? std::string() : fmt::format("{} is one number; leave the index out", whole);
+  const std::size_t first = layout.lists.empty() ? layout.shape[0] : layout.lists.size();
+  if (indices.empty()) return {};
+  if (indices[0] >= first)
+    return fmt::format("{} has no [{}]; give an index from 0 to {}", whole, indices[0], first - 1);
+  if (layout.lists.empty() ? indices.size() > 1 : indices.size() > 2)
+    return fmt::format("{} has no lists so deep; leave an index out", whole);
+  if (indices.size() == 2 && indices[1] >= layout.lists[indices[0]])
+    return fmt::format("{}[{}] has no [{}]; give an index from 0 to {}", whole, indices[0], indices[1],
+                       layout.lists[indices[0]] - 1);
+  return {};
+}
+
 FieldLayout FieldLayouts::output(std::string_view place) const {
   if (is_diagram_) return {};
   const AnswerField* field = find_answer_field(place);

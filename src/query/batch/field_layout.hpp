@@ -33,6 +33,9 @@ class FieldLayouts {
 
   FieldLayout input(std::string_view place) const;
   FieldLayout output(std::string_view place) const;
+  /// Why a place of an answer is no column: an index too large, or a list whose length the robot alone does
+  /// not tell. Empty where it is one.
+  std::string why_no_column(std::string_view place) const;
 
  private:
   using Lengths = std::vector<std::size_t>;

@@ -7,8 +7,10 @@
 #include "io/reader.hpp"
 #include "query/batch/answer_path.hpp"
 #include "query/batch/batch_state.hpp"
-#include "query/batch/field_layout.hpp"
+#include "query/batch/choose_outputs.hpp"
+#include "query/batch/field_units.hpp"
 #include "query/batch/row_places.hpp"
+#include "query/fields/fields.hpp"
 #include "query/tree_session.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/robot/arm_legs.hpp"
@@ -17,8 +19,6 @@
 
 namespace sinew::inline v1 {
 namespace {
-
-using Outputs = std::vector<std::pair<std::string, std::string>>;  ///< names, places in the answer
 
 std::string_view word(const Node& query, std::string_view key) {
   const Node* found = query.find(key);
@@ -45,39 +45,6 @@ Robot as_asked(const Document& document, const Robot& robot, const Node& query) 
   return asked;
 }
 
-/// Of a number of a question or an answer; of inputs it is the robot's.
-std::string unit_of_number(const Robot& robot, std::string_view place) {
-  const std::string_view field = place.substr(0, place.find('['));
-  const int index = field.size() < place.size() ? std::atoi(place.data() + field.size() + 1) : 0;
-  const bool is_linear = index < (robot.planar() ? 2 : 3);
-  if (field == "inputs" && !robot.serial()) {
-    const auto inputs = inputs_of(robot);
-    const auto one = static_cast<std::size_t>(index);
-    return one < inputs.size() ? std::string(unit(inputs[one].dimension)) : std::string();
-  }
-  if (field == "wrench" || field == "following" || field == "until.wrench" || field == "to.wrench")
-    return is_linear ? "N" : "N m";
-  if (field == "twist") return is_linear ? "m/s" : "rad/s";
-  if (field == "gravity") return "m/s^2";
-  if (field == "lengths") return "m";
-  if (field == "angles") return "rad";
-  if (field == "axial_forces" || field == "measured_tensions" || field == "tensions") return "N";
-  if (field == "distributed" || field == "distributed_following") return "N/m";
-  return std::string(unit_of_answer(place));
-}
-
-Batch::Field field_of(const Robot& robot, std::string name, const std::string& place,
-                      const FieldLayout& layout) {
-  Batch::Field field{std::move(name), {}, layout.shape};
-  std::vector<std::string> units;
-  for (std::size_t i = 0; i < layout.size(); ++i) {
-    std::string one = unit_of_number(robot, place + layout.suffix(i));
-    if (std::ranges::find(units, one) == units.end()) units.push_back(std::move(one));
-  }
-  field.unit = fmt::format("{}", fmt::join(units, ", "));
-  return field;
-}
-
 /// Texts for single numbers, `$name[1]`, in place of one for a list.
 Node single_numbers(const std::string& text, const FieldLayout& layout) {
   Node list;
@@ -102,9 +69,10 @@ struct Named {
 /// Finds names, and puts single numbers in place of lists.
 class NameReader {
  public:
-  NameReader(const Robot& robot, const FieldLayouts& layouts, Errors& errors)
+  NameReader(const Robot& robot, const FieldLayouts& layouts, const FieldUnits& units, Errors& errors)
       : robot_(robot),
         layouts_(layouts),
+        units_(units),
         errors_(errors) {}
 
   std::vector<Named> read(Node& query) {
@@ -126,6 +94,8 @@ class NameReader {
     if (name.empty())
       errors_.push_back({"missing_key", place,
                          fmt::format("{} = \"$\" has no name; write one after it, like \"$x\"", place)});
+    else if (const std::string why = why_no_name(place); !why.empty())
+      errors_.push_back({"wrong_type", place, why});
     else if (place == "id")
       errors_.push_back(
           {"no_effect", place, "id is repeated in single answers; rows have none, leave it out"});
@@ -134,6 +104,30 @@ class NameReader {
     else
       compare(*before, place, layout);
     if (!layout.shape.empty()) node = single_numbers(node.text, layout);
+  }
+
+  /// A name stands for numbers: what is made of maps and texts has names in it.
+  std::string why_no_name(std::string_view place) const {
+    const auto* field = find_field(place);
+    using Shape = FieldShape;
+    if (!field) return {};
+    if (field->shape == Shape::pose && !is_held_by_three())
+      return fmt::format("a pose is a map; give names in it, {}",
+                         layouts_.input("position").size() == 2
+                             ? R"({"x": "$x", "y": "$y", "phi": "$phi"})"
+                             : R"({"position": "$position", "quaternion": "$quaternion"})");
+    if (field->shape == Shape::pose || field->shape == Shape::independent)
+      return R"(of this robot give "independent": {"z": "$z", "e1": "$e1", "e2": "$e2"})";
+    for (const Shape shape : {Shape::places, Shape::target, Shape::growing_load, Shape::settings,
+                              Shape::point_loads, Shape::path_points, Shape::measured_rows})
+      if (field->shape == shape) return "it is made of several fields; give names in these";
+    return {};
+  }
+
+  /// Of such a robot z, e1 and e2 are asked for: few whole poses are.
+  bool is_held_by_three() const {
+    const bool has_legs = !robot_.serial() && !robot_.arm() && !robot_.arm_legs();
+    return has_legs && !robot_.planar() && input_count(robot_) == 3;
   }
 
   /// The same name at two places: the same numbers.
@@ -145,8 +139,8 @@ class NameReader {
     };
     if (before.layout.shape != layout.shape)
       return say(numbers(layout.size()), fmt::format("{}", before.layout.size()));
-    const std::string here = field_of(robot_, {}, place, layout).unit,
-                      there = field_of(robot_, {}, before.place, layout).unit;
+    const std::string here = units_.field({}, place, layout).unit,
+                      there = units_.field({}, before.place, layout).unit;
     if (here != there && !here.empty() && !there.empty()) say(here, there);
   }
   static std::string numbers(std::size_t count) {
@@ -155,74 +149,15 @@ class NameReader {
 
   const Robot& robot_;
   const FieldLayouts& layouts_;
+  const FieldUnits& units_;
   Errors& errors_;
   std::vector<Named> found_;
 };
 
-/// Of what tendon pairs hold: of each leg both tendons, under the names that studies and Octave give them.
-Outputs usual_tendons(const Robot& robot) {
-  Outputs usual;
-  for (int i = 0; i < leg_count(robot); ++i)
-    for (const char* field : {"tendon_lengths", "tensions"})
-      usual.emplace_back(fmt::format("legs_{}_{}", i, field), fmt::format("legs[{}].{}", i, field));
-  return usual;
-}
-
-Outputs usual_solution(const Robot& robot, std::string_view query) {
-  if (query == "inverse")
-    return robot.model() == Model::prb ? usual_tendons(robot) : Outputs{{"inputs", "inputs"}};
-  if (query == "velocity") {
-    Outputs usual{{"position_index", "indices.position"}, {"rotation_index", "indices.rotation"}};
-    if (!has_rods(robot)) usual.insert(usual.begin(), {"determinant", "determinant"});
-    return usual;
-  }
-  if (robot.planar()) return {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
-  return {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
-}
-
-/// What people ask a question for, and how well it is solved, where that is not in closed form.
-Outputs usual_outputs(const Robot& robot, std::string_view query) {
-  if (query == "diagram") return {{"margin", "margin"}, {"over_tension", "over_tension"}};
-  if (query == "identify") return {{"rms", "errors.fitted.rms"}, {"noise", "noise"}};
-  const std::pair<std::string, std::string> residual{"residual", "residual"};
-  if (robot.serial()) {
-    if (query == "velocity") return {{"J", "J"}, {"K", "K"}};
-    Outputs usual{{"position", "tip.position"}, {"quaternion", "tip.quaternion"}, {"changes", "changes"}};
-    if (query == "inverse") {
-      usual.emplace_back("configuration", "configuration");
-      usual.push_back(residual);
-    }
-    return usual;
-  }
-  Outputs usual;
-  if (const ArmLegs* legs = robot.arm_legs()) {
-    if (legs->is_planar)
-      usual = {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
-    else
-      usual = {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
-    usual.insert(usual.end(), {{"tensions", "tensions"}, {"changes", "changes"}});
-    if (query == "statics") usual.emplace_back("wrench", "wrench");
-  } else if (robot.arm()) {
-    usual = {{"position", "tip.position"},
-             {"quaternion", "tip.quaternion"},
-             {"tensions", "tensions"},
-             {"changes", "changes"}};
-    if (query == "statics") usual.emplace_back("wrench", "wrench");
-    if (query == "track") {
-      for (const char* name : {"end_tensions", "motor_work", "friction_loss"}) usual.emplace_back(name, name);
-      return usual;
-    }
-  } else {
-    usual = usual_solution(robot, query);
-  }
-  usual.push_back(residual);
-  return usual;
-}
-
 /// The fields of a batch that are not its query's.
 struct Told {
   bool is_path = false;
-  Outputs outputs;
+  BatchOutputs outputs;
 };
 Told read_told(const Document& asked, Errors& errors) {
   Told told;
@@ -273,7 +208,8 @@ bool put_own_numbers(Node& settings, const Document& robot, Errors& errors) {
 /// What is wrong with every row, whatever its numbers are: fields that are unknown or of no effect, lists of
 /// a wrong length, names in place of words. Numbers that are out of range are the rows' to tell, and so is
 /// that the robot has no answer: that is a status.
-Errors errors_of_all_rows(const Document& robot, const Node& query) {
+/// @param has_answers whether the robot has answers to it
+Errors errors_of_all_rows(const Document& robot, const Node& query, bool& has_answers) {
   const std::vector<std::string> places = places_of_names(query);
   Document trial{"query", query};
   Errors errors;
@@ -285,8 +221,8 @@ Errors errors_of_all_rows(const Document& robot, const Node& query) {
   auto session = TreeSession::open(robot);
   errors = session ? session->errors_of(trial) : session.error();
   const auto is_lacking = [](const Error& error) { return error.code == "not_available"; };
-  if (std::ranges::all_of(errors, is_lacking) || (!is_whole && std::ranges::any_of(errors, is_lacking)))
-    return {};
+  has_answers = std::ranges::none_of(errors, is_lacking);
+  if (std::ranges::all_of(errors, is_lacking) || (!is_whole && !has_answers)) return {};
   const bool chooses_section = std::ranges::find(places, "section") != places.end();
   std::erase_if(errors, [&](const Error& error) {
     const auto is = [&](std::string_view code) { return error.code == code; };
@@ -321,8 +257,10 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
   const Robot as_it_is = as_asked(document, *robot, question.query.root);
   const std::string kind(word(question.query.root, "query"));
   const FieldLayouts layouts(as_it_is, kind);
-  for (const auto& [name, place, layout] : NameReader(as_it_is, layouts, errors).read(question.query.root)) {
-    state->inputs.push_back(field_of(as_it_is, name, place, layout));
+  const FieldUnits units(as_it_is, question.query.root);
+  for (const auto& [name, place, layout] :
+       NameReader(as_it_is, layouts, units, errors).read(question.query.root)) {
+    state->inputs.push_back(units.field(name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) {
       question.inputs.push_back(name + layout.suffix(i));
       if (std::ranges::count(question.inputs, question.inputs.back()) > 1)
@@ -331,14 +269,19 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
              "\"$" + question.inputs.back() + "\" is a name and a number of a list; give another"});
     }
   }
-  if (errors.empty()) errors = errors_of_all_rows(document, question.query.root);
+  bool has_answers = false;
+  if (errors.empty()) errors = errors_of_all_rows(document, question.query.root, has_answers);
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   if (state->inputs.empty())
     return failure("no_inputs", "query", "nothing goes in: write texts like \"$x\" where its numbers go");
-  if (told.outputs.empty()) told.outputs = usual_outputs(as_it_is, kind);
+  if (has_answers)
+    errors = choose_outputs(as_it_is, layouts, told.outputs, question);
+  else if (told.outputs.empty())
+    told.outputs = usual_outputs(as_it_is, kind);
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
   for (auto& [name, place] : told.outputs) {
     const FieldLayout layout = layouts.output(place);
-    state->outputs.push_back(field_of(as_it_is, name, place, layout));
+    state->outputs.push_back(units.field(name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) question.outputs.push_back(place + layout.suffix(i));
   }
   state->kind = choose_sampler(question);

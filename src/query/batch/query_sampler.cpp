@@ -10,6 +10,7 @@
 #include "query/batch/row_places.hpp"
 #include "query/batch/sampler.hpp"
 #include "query/tree_session.hpp"
+#include "query/wants.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {
@@ -26,13 +27,13 @@ bool is_without_legs(std::string_view output) {
 /// The question without what is usual of it and goes to no column: of chains, legs and what simpler models
 /// make of them are a quarter of its time.
 Document narrowed(const BatchQuestion& question, TreeSession& session) {
-  if (question.query.root.find("want") || !std::ranges::all_of(question.outputs, is_without_legs))
+  if (!question.is_without_legs && !std::ranges::all_of(question.outputs, is_without_legs))
     return question.query;
-  Node words;
-  words.kind = Node::Kind::list;
-  words.items.push_back(make_node("pose"));
   BatchQuestion narrow = question;
-  narrow.query.root.members.push_back({.key = "want", .value = std::move(words)});
+  const Wants named = named_wants(narrow.query.root);
+  if (!(named & usual_wants).is_empty() || (!question.is_without_legs && !named.is_empty()))
+    return question.query;
+  add_want(narrow.query.root, Want::pose);
   return session.errors_of(RowPlaces(narrow).trial()).empty() ? narrow.query : question.query;
 }
 

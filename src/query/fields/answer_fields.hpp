@@ -34,11 +34,13 @@ enum class AnswerShape {
 struct AnswerField {
   std::string_view name;  ///< last word of its place, or as many as are needed; without indices
   AnswerShape shape;
-  std::string_view unit;  ///< SI; empty for plain numbers, and where numbers of one field have several
+  std::string_view unit;  ///< SI; empty for plain numbers. All that numbers of it have, ", " between: then 1
+                          ///< is that of plain ones, and radians are left out of denominators
   std::string_view meaning;
 };
 
-/// Of all questions but `describe`, which says a file again, and `identify`, which has its own page.
+/// Of all questions but `describe`, which says a file again, and `identify`, which has its own page; of these
+/// what would be taken for a field of another question.
 SINEW_API std::span<const AnswerField> answer_fields();
 /// By a place such as `legs[0].tendon_lengths[1]`; null where nothing is known of it.
 SINEW_API const AnswerField* find_answer_field(std::string_view place);

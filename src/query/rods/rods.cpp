@@ -191,8 +191,7 @@ std::optional<SpatialPose> read_held_pose(const Context& context) {
 }  // namespace
 
 RodWants read_rod_wants(Context& context) {
-  const Wants usual = context.ask == Ask::statics ? Wants{Want::pose} : usual_of(context.ask);
-  RodWants wanted{read_wants(context, usual, equilibrium_wants), {}, 0};
+  RodWants wanted{read_wants(context, usual_of_rods(context.ask), equilibrium_wants), {}, 0};
   refuse_other_sensitivity(context);
   if (wanted.words.has(Want::velocity)) {
     wanted.motion = read_motion(context);
