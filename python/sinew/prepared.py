@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import operator
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -196,13 +197,18 @@ def _named(outputs: Any) -> Mapping[str, str]:
     """`["pose.position"]` is `{"position": "pose.position"}`."""
     if not isinstance(outputs, Iterable):
         raise InputError(f"outputs: found {type(outputs).__name__}; give a dict of names and places, or a list of places", "wrong_type", "outputs")
-    places: Any = [outputs] if isinstance(outputs, str) else outputs
-    named = places if isinstance(places, Mapping) else {str(place).rsplit(".", 1)[-1]: place for place in places}
+    named = outputs if isinstance(outputs, Mapping) else _by_last_word([outputs] if isinstance(outputs, str) else list(outputs))
     for name in named:
         if hasattr(Row, str(name)) or hasattr(Columns, str(name)):
             raise InputError(f"outputs: answers have a {name!r} of their own; give this one another name, such as \"my_{name}\"",
                              "ambiguous", f"outputs.{name}")
     return named
+
+
+def _by_last_word(places: list[Any]) -> dict[str, Any]:
+    """By the whole place, `legs_0_chord`, where others end with the same word."""
+    last = [str(place).rsplit(".", 1)[-1] for place in places]
+    return {word if last.count(word) == 1 else re.sub(r"\W+", "_", str(place)): place for word, place in zip(last, places)}
 
 
 def _filled(value: Any, named: Mapping[str, Any], robot: Robot, key: str) -> Any:

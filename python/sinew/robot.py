@@ -135,7 +135,7 @@ class Robot(Verbs):
         """
         from .prepared import Prepared
         if not isinstance(query, str):
-            raise TypeError("prepare takes the kind of a question, then its fields: prepare(\"inverse\", pose=\"$pose\")")
+            raise TypeError("prepare takes the kind of a question, then its fields: prepare(\"forward\", inputs=\"$lengths\")")
         return Prepared(self, query, fields, outputs, path)
 
     def set(self, values: Mapping[str, Any]) -> Robot:
