@@ -169,8 +169,9 @@ class Units(unittest.TestCase):
         one = robot.forward(LENGTHS, want=wants).units
         self.assertEqual((one["margins.fold"], one["margins.strain"]), ("", ""))
         many = robot.prepare("forward", inputs="$l", want=wants, outputs={f"out_{index}": place for index, place in enumerate(places)}).outputs
-        for place, field in zip(places, many):
-            self.assertEqual(one.get(place, field["unit"]), field["unit"], place)
+        for place, field in zip(places, many):  # an answer tells those of all robots, columns those of this one
+            units = one.get(place, field["unit"]).split(", ")
+            self.assertLessEqual(set(field["unit"].split(", ")), set(units), place)
 
 
 class Paths(unittest.TestCase):

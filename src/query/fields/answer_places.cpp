@@ -84,7 +84,7 @@ constexpr std::array leg_words{
 constexpr AnswerGroup leg_fields = group_of(leg_words);
 
 constexpr std::array solution_words{
-    AnswerWord{"pose", platforms, map, pose_fields}, AnswerWord{"tip", tips, map, spatial_pose}, AnswerWord{"inputs", of_platforms},
+    AnswerWord{"pose", platforms, map, pose_fields}, AnswerWord{"tip", tips, map, pose_fields}, AnswerWord{"inputs", of_platforms},
     AnswerWord{"legs", platforms, maps, leg_fields}, AnswerWord{"residual", 0}, AnswerWord{"double", on_arcs},
     AnswerWord{"stable", of_chains | of_rods | with_arms}, AnswerWord{"unstable_directions", of_chains | of_rods},
     AnswerWord{"potential", of_chains | of_rods | with_arms}, AnswerWord{"configuration", of_serial}, AnswerWord{"changes", of_serial | with_arms},
@@ -154,14 +154,14 @@ constexpr unsigned arms_answer = with_arms | configuration | path, elastic = of_
 return std::array{
     AnswerWord{.name = "pose", .of = of_platforms | configuration, .part = map, .below = pose_fields, .want = Want::pose},
     AnswerWord{"pose", of_arm_legs | configuration | path, map, pose_fields},
-    AnswerWord{"tip", of_serial | configuration, map, spatial_pose}, AnswerWord{"tip", of_arms | configuration | path, map, spatial_pose},
+    AnswerWord{"tip", of_serial | configuration, map, pose_fields}, AnswerWord{"tip", of_arms | configuration | path, map, pose_fields},
     AnswerWord{"inputs", of_platforms | configuration}, AnswerWord{"configuration", of_serial | configuration},
     AnswerWord{"changes", of_serial | configuration}, AnswerWord{"changes", arms_answer}, AnswerWord{"tensions", arms_answer},
     AnswerWord{"slack", arms_answer}, AnswerWord{"slack", of_serial | asking({Ask::forward})},
     AnswerWord{"motors", of_serial | configuration}, AnswerWord{"motors", of_arms | configuration | path},
     AnswerWord{"sections", of_serial | configuration, maps, spatial_pose},
     AnswerWord{.name = "legs", .of = of_platforms | configuration, .part = maps, .below = leg_fields, .want = Want::legs},
-    AnswerWord{"legs", of_arm_legs | configuration | path, maps, leg_fields}, AnswerWord{"reached", of_arm_legs | configuration},
+    AnswerWord{"legs", of_arm_legs | configuration | path, maps, leg_fields}, AnswerWord{"reached", of_arm_legs | configuration | path},
     AnswerWord{"wrench", of_chains | loaded}, AnswerWord{"wrench", of_rods | sensing}, AnswerWord{"wrench", with_arms | sensing},
     AnswerWord{"residual", all_robots | configuration | path}, AnswerWord{"iterations", all_robots | configuration | path | identify},
     AnswerWord{"resolution", arms_answer},
@@ -193,7 +193,7 @@ return std::array{
     AnswerWord{.name = "twist", .of = of_rods | configuration, .want = velocity, .is_rare = true},
     AnswerWord{.name = "type_2_distance", .of = of_kinematic | configuration, .part = map, .below = group_of(type_two_distance_words), .want = velocity, .with = "along"},
     AnswerWord{.name = "steering", .of = of_serial | configuration, .want = velocity},
-    AnswerWord{.name = "answer_rates", .of = with_arms | configuration, .want = velocity},
+    AnswerWord{.name = "answer_rates", .of = with_arms | configuration | path, .want = velocity},
 
     AnswerWord{.name = "stiffness", .of = elastic | with_arms | configuration | path, .want = stiffness},
     AnswerWord{.name = "compliance", .of = of_chains | with_arms | configuration | path, .want = stiffness},
@@ -225,7 +225,7 @@ return std::array{
     AnswerWord{"covariance", elastic | with_arms | sensing}, AnswerWord{"wrench_sensitivity", elastic | with_arms | sensing},
     AnswerWord{"condition", elastic | with_arms | sensing}, AnswerWord{"misfit", elastic | with_arms | sensing},
 
-    AnswerWord{"rows", all_robots | path, maps, row_fields}, AnswerWord{"reached", all_robots | path, map, group_of(end_words)},
+    AnswerWord{"rows", all_robots | path, maps, row_fields}, AnswerWord{"reached", (all_robots & ~of_arm_legs) | path, map, group_of(end_words)},
     AnswerWord{"curves", elastic | path, maps, group_of(curve_words)}, AnswerWord{"equilibria", elastic | path, maps, row_fields},
     AnswerWord{"end_tensions", of_arms | path}, AnswerWord{"slipping", of_arms | path}, AnswerWord{"motor_work", of_arms | path}, AnswerWord{"friction_loss", of_arms | path},
     AnswerWord{.name = "one_sided", .of = of_arms | path, .part = maps, .below = group_of(two_sides_words), .want = velocity},
