@@ -5,7 +5,7 @@ FIELDS = (
     ('set', 'map', '', 'changes the robot for this question alone: values by their paths in its file, such as legs[0].link.length; on the command line it may be repeated'),
     ('theta_is', 'word', '', 'what an input theta is the angle of: tangent (default) or chord'),
     ('law', 'word', '', "how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)"),
-    ('max_iterations', 'count', '', 'most iterations of the solver; default 100, of rods 4000, of identify 60'),
+    ('max_iterations', 'count', '', 'most iterations of the solver; default 100, of arms 200 in each search, of legs of sections 2000, of rods 4000, of identify 60'),
     ('tilt', 'flag', '', 'poses of the answer have tilt, azimuth and torsion, too; in space only'),
     ('inputs', 'numbers', 'm, rad', 'in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows'),
     ('pose', 'pose', 'm, rad', 'of the platform, of a serial robot of its tip; of statics of legs of sections where it is held, or with `measured_tensions` was seen; in the plane x, y, phi, in space x, y, z and a quaternion, on the command line also a rotation vector'),

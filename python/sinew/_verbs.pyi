@@ -66,7 +66,8 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, of an arm the mean curvatures and torsion of equal
@@ -209,7 +210,8 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             independent (dict) [m]: in place of `pose` where hinges hold the platform in planes, or three
                 rods hold it: height and two components of its quaternion; of hinges a mode, too, tilt or
@@ -348,7 +350,8 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -502,7 +505,8 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -659,7 +663,8 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -787,7 +792,8 @@ class Verbs:
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             limit (number): how far to look `along` its direction; of a diagram the envelope's size
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
@@ -878,7 +884,8 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -994,7 +1001,8 @@ class Verbs:
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             fit (str, or list of str): what may change, such as sections.bending,tendons.offset,marker;
                 default what rows can usually tell (docs/identify.md)
@@ -1056,7 +1064,8 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            max_iterations (int): most iterations of the solver; default 100, of arms 200 in each search, of
+                legs of sections 2000, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:

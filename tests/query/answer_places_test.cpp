@@ -11,6 +11,7 @@
 #include "io/parse.hpp"
 #include "paths.hpp"
 #include "query/batch/answer_path.hpp"
+#include "query/batch/field_layout.hpp"
 #include "query/tree_session.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/robot/assembly.hpp"
@@ -81,12 +82,16 @@ TEST_F(EveryAnswer, HasOnlyPlacesOfTheTable) {
   each([&](const Robot& robot, const Json& query, const auto& answer) {
     if (query.contains("set")) return;
     const AnswerPlaces known(robot, ask_of(query));
+    const FieldLayouts layouts(robot, query["query"].get<std::string>());
     Names places;
     collect(answer(query), "", places);
     for (const std::string& place : places) {
       const auto found = known.find(place);
       EXPECT_TRUE(found) << place << ": " << found.error();
       if (!found) continue;
+      if (found->last->part == AnswerPart::value) {
+        EXPECT_EQ(layouts.why_no_column(place), "") << place;
+      }
       EXPECT_TRUE(found->root->with.empty() || query.contains(found->root->with)) << place;
       ++count;
     }

@@ -67,8 +67,8 @@ struct ArmOptions {
   int elements = 0;        ///< of a section (rod), between discs (subsegment_rod, prb); 0: the model's
   double accuracy = 1e-6;  ///< of the tip that rods are refined to, over the arm's length; 0: as they are [1]
   double tolerance = 1e-10;  ///< of the residual [1]
-  int max_iterations = 200;
-  bool from_last = false;  ///< from where the workspace is, not from the straight arm
+  int max_iterations = 200;  ///< of each search; refinement takes several [1]
+  bool from_last = false;    ///< from where the workspace is, not from the straight arm
   /// From the shape with these curvatures and torsions, means of as many equal parts [rad/m], in its own
   /// axes; empty: from the straight arm. Outlives the question.
   std::span<const std::array<double, 3>> from_curvatures = {};

@@ -77,10 +77,11 @@ class OutputChooser {
   void check(const BatchOutputs& outputs) {
     const Wants wanted = places_.wanted(named_wants(query_));
     Wants added;
-    for (const auto& [name, place] : outputs) {
+    for (const auto& output : outputs) {
+      const std::string& place = output.second;
       const auto found = places_.find(place);
       const auto refuse = [&](std::string why) {
-        errors_.push_back({"unknown_path", "outputs." + name, std::move(why)});
+        errors_.push_back({"unknown_path", "outputs." + output.first, std::move(why)});
       };
       if (!found) {
         refuse(found.error());

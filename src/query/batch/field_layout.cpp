@@ -237,7 +237,9 @@ std::string FieldLayouts::why_no_column(std::string_view place) const {
   if (layout.shape.empty())
     return indices.empty() ? std::string() : fmt::format("{} is one number; leave the index out", whole);
   const std::size_t first = layout.lists.empty() ? layout.shape[0] : layout.lists.size();
-  if (indices.empty()) return {};
+  // A path's rows tell of all legs at once what elsewhere each leg has.
+  const bool is_of_row = place.find("rows[") != place.npos || place.starts_with("equilibria[");
+  if (indices.empty() || is_of_row) return {};
   if (indices[0] >= first)
     return fmt::format("{} has no [{}]; give an index from 0 to {}", whole, indices[0], first - 1);
   if (layout.lists.empty() ? indices.size() > 1 : indices.size() > 2)

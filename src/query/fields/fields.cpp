@@ -64,7 +64,7 @@ return std::array{
     Field{"law", word, number,
           {.forward = of_chains, .inverse = of_chains, .velocity = of_chains, .shape = of_chains, .statics = of_chains, .track = of_chains, .describe = of_chains},
           "how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)", laws},
-    Field{"max_iterations", whole, count, always, "most iterations of the solver; default 100, of rods 4000, of identify 60"},
+    Field{"max_iterations", whole, count, always, "most iterations of the solver; default 100, of arms 200 in each search, of legs of sections 2000, of rods 4000, of identify 60"},
     Field{"tilt", flag, number, always, "poses of the answer have tilt, azimuth and torsion, too; in space only"},
 
     Field{"inputs", FieldShape::inputs, length, {.forward = of_platforms, .velocity = of_kinematic | of_rods, .shape = of_platforms, .statics = of_loads, .track = of_rods},
