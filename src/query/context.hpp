@@ -13,6 +13,7 @@
 #include "sinew/kinematics/inverse.hpp"
 #include "sinew/robot/robot.hpp"
 #include "sinew/session.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
 
@@ -60,7 +61,8 @@ struct Question {
     *last = found;
     return found.has_value();
   }
-  void report(const Report& report) {
+  void report(Report report) {
+    if (report.status == Status::stopped && report.message.empty()) say_stopped(report);
     answer["status"] = to_string(report.status);
     if (!report.message.empty()) answer["message"] = report.message.view();
   }

@@ -5,6 +5,7 @@
 #include "base/at.hpp"
 #include "kinematics/arm_legs/search/continuation.hpp"
 #include "kinematics/arm_legs/search/resolution.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -45,7 +46,9 @@ Report LegsWalk::go(const LegsProblem& problem, bool from_last) {
   write_legs_state(robot_, group, impl.state);
   impl.state.report = {Status::converged, budget.iterations, found.residual, {}};
   impl.state.resolution = 0;
-  return {found.status, budget.iterations, found.residual, {}};
+  Report report{found.status, budget.iterations, found.residual, {}};
+  if (found.status == Status::stopped) say_stopped(report);
+  return report;
 }
 
 void LegsWalk::keep() {
