@@ -208,7 +208,7 @@ def _named(outputs: Any) -> Mapping[str, str]:
 def _by_last_word(places: list[Any]) -> dict[str, Any]:
     """By the whole place, `legs_0_chord`, where others end with the same word."""
     last = [str(place).rsplit(".", 1)[-1] for place in places]
-    return {word if last.count(word) == 1 else re.sub(r"\W+", "_", str(place)): place for word, place in zip(last, places)}
+    return {word if last.count(word) == 1 else re.sub(r"[.\[]", "_", str(place)).replace("]", ""): place for word, place in zip(last, places)}
 
 
 def _filled(value: Any, named: Mapping[str, Any], robot: Robot, key: str) -> Any:

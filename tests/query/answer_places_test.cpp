@@ -3,13 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "corpus.hpp"
 #include "io/parse.hpp"
-#include "paths.hpp"
 #include "query/batch/answer_path.hpp"
 #include "query/batch/field_layout.hpp"
 #include "query/tree_session.hpp"
@@ -22,13 +20,9 @@ namespace answer_places_test {
 using Json = nlohmann::ordered_json;
 using Names = std::set<std::string>;
 
-/// Questions that the fuzz target begins with: together they have every field.
-std::vector<Json> corpus_of(std::string_view robot) {
-  std::ifstream file(std::filesystem::path(test::source_folder) / "tests/fuzz/corpus/session" /
-                     (std::string(robot) + ".txt"));
-  std::vector<Json> queries;
-  std::string line;
-  for (std::getline(file, line); std::getline(file, line);) queries.push_back(Json::parse(line));
+/// Questions that have answers to look into.
+std::vector<Json> questions_to(std::string_view robot) {
+  std::vector<Json> queries = test::corpus_of(robot);
   std::erase_if(queries, [](const Json& query) { return query["query"] == "describe"; });
   return queries;
 }
@@ -67,7 +61,7 @@ class EveryAnswer : public testing::Test {
       const Document document = read_robot_file(std::string(name)).value();
       const Robot robot = read_robot(document).value();
       TreeSession session = TreeSession::open(document).value();
-      for (const Json& query : corpus_of(name)) {
+      for (const Json& query : questions_to(name)) {
         SCOPED_TRACE(query.dump());
         use(as_asked(robot, query), query, [&](const Json& asked) {
           return Json::parse(session.answer(parse_json(asked.dump(), "query").value()).json());

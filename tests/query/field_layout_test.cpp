@@ -3,13 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "paths.hpp"
+#include "corpus.hpp"
 #include "query/fields/answer_fields.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"
@@ -196,16 +194,6 @@ void look_up(const Json& value, const std::string& place, std::set<std::string>&
       if (key != "id") look_up(one, place.empty() ? key : place + '.' + key, unknown);
 }
 
-/// Questions that the fuzz target begins with: together they have every field.
-std::vector<Json> corpus_of(std::string_view robot) {
-  std::ifstream file(std::filesystem::path(test::source_folder) / "tests/fuzz/corpus/session" /
-                     (std::string(robot) + ".txt"));
-  std::vector<Json> queries;
-  std::string line;
-  for (std::getline(file, line); std::getline(file, line);) queries.push_back(Json::parse(line));
-  return queries;
-}
-
 TEST(AnswerFields, HaveEveryNumberOfEveryAnswer) {
   std::size_t answers = 0, paths = 0;
   for (const std::string_view name : builtin_robot_names()) {
@@ -213,7 +201,7 @@ TEST(AnswerFields, HaveEveryNumberOfEveryAnswer) {
     Session session = Session::open(std::string(name)).value();
     const Json described = Json::parse(session.answer(R"({"query": "describe"})"));
     std::vector<Json> asked = questions(described, session);
-    for (Json& query : corpus_of(name)) asked.push_back(std::move(query));
+    for (Json& query : test::corpus_of(name)) asked.push_back(std::move(query));
     for (const Json& query : asked) {
       if (query["query"] == "describe" || query["query"] == "identify") continue;  // not in this table
       const Json answer = Json::parse(session.answer(query.dump()));

@@ -32,4 +32,15 @@ class SINEW_API AnswerPath {
 /// where numbers of its field have several.
 SINEW_API std::string_view unit_of_answer(std::string_view path);
 
+/// A name for what is there, where nobody gave one: `legs_0_force`.
+inline std::string name_of_place(std::string_view path) {
+  std::string name;
+  for (const char c : path)
+    if (c == '.' || c == '[')
+      name += '_';
+    else if (c != ']')
+      name += c;
+  return name;
+}
+
 }  // namespace sinew::inline v1

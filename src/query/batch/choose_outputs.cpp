@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "query/batch/answer_path.hpp"
 #include "query/fields/answer_places.hpp"
 #include "query/fields/fields.hpp"
 #include "sinew/robot/arm_legs.hpp"
@@ -32,17 +33,6 @@ BatchOutputs usual_solution(const Robot& robot, std::string_view query) {
   }
   if (robot.planar()) return {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
   return {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
-}
-
-/// A name for the place of a column that nobody named: `legs_0_force`.
-std::string name_of_place(std::string_view place) {
-  std::string name;
-  for (const char c : place)
-    if (c == '.' || c == '[')
-      name += '_';
-    else if (c != ']')
-      name += c;
-  return name;
 }
 
 class OutputChooser {

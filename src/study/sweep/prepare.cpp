@@ -53,13 +53,7 @@ std::string column_of(std::string_view path) {
   }};
   for (const auto& [place, name] : known)
     if (place == path) return std::string(name);
-  std::string name;
-  for (const char c : path)
-    if (c == '.' || c == '[')
-      name += '_';
-    else if (c != ']')
-      name += c;
-  return name;
+  return name_of_place(path);
 }
 
 /// What people ask a query for.
