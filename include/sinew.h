@@ -26,7 +26,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(SINEW_SHARED) && defined(__GNUC__)
+#ifdef __GNUC__
 #define SINEW_C_API __attribute__((visibility("default")))
 #else
 #define SINEW_C_API

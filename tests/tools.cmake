@@ -83,8 +83,8 @@ add_test(NAME headers.public COMMAND Python3::Interpreter ${tools_dir}/headers.p
   ${CMAKE_CURRENT_BINARY_DIR}/headers ${eigen_include})
 set_tests_properties(headers.public PROPERTIES LABELS tools TIMEOUT 600 PROCESSORS 2 COST 900)  # begins early
 
-# A user's project, with sinew installed, as a subdirectory, and as a shared library.
-foreach(mode install subdirectory shared)
+# A user's project, with sinew installed and as a subdirectory.
+foreach(mode install subdirectory)
   add_test(NAME packaging.${mode} COMMAND ${CMAKE_COMMAND}
     -D MODE=${mode} -D SOURCE=${PROJECT_SOURCE_DIR} -D BUILD=${PROJECT_BINARY_DIR}
     -D WORK=${CMAKE_CURRENT_BINARY_DIR}/packaging/${mode} -D JOBS=2 -D PYTHON=${SYSTEM_PYTHON}

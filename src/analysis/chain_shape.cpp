@@ -55,9 +55,8 @@ ShapeOf<Space::dimension> chain_shape(const ChainLegs<Space>& robot, const typen
   return shape;
 }
 
-template SINEW_API ShapeOf<2> chain_shape(const ChainLegs<Planar>&, const PlanarPose&,
-                                          std::span<const ChainLegState>);
-template SINEW_API ShapeOf<3> chain_shape(const ChainLegs<Spatial>&, const SpatialPose&,
-                                          std::span<const ChainLegState>);
+template ShapeOf<2> chain_shape(const ChainLegs<Planar>&, const PlanarPose&, std::span<const ChainLegState>);
+template ShapeOf<3> chain_shape(const ChainLegs<Spatial>&, const SpatialPose&,
+                                std::span<const ChainLegState>);
 
 }  // namespace sinew::inline v1

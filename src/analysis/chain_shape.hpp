@@ -11,8 +11,7 @@ namespace sinew::inline v1 {
 /// there, not to the outermost links. So a tendon is as long as M1 has it, and as M0w to second order in a
 /// link's length.
 template <class Space>
-SINEW_API ShapeOf<Space::dimension> chain_shape(const ChainLegs<Space>& robot,
-                                                const typename Space::Pose& pose,
-                                                std::span<const ChainLegState> legs);
+ShapeOf<Space::dimension> chain_shape(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
+                                      std::span<const ChainLegState> legs);
 
 }  // namespace sinew::inline v1

@@ -130,11 +130,11 @@ std::vector<double> least_norm_rates(const ChainVelocity<Space>& velocity,
   return rates;
 }
 
-template SINEW_API std::vector<double> least_norm_rates(const ChainVelocity<Planar>&, const Vec<double, 3>&);
-template SINEW_API std::vector<double> least_norm_rates(const ChainVelocity<Spatial>&, const Vec<double, 6>&);
-template SINEW_API ChainVelocity<Planar> chain_velocity(const ChainLegs<Planar>&, const PlanarPose&,
-                                                        std::span<const ChainLegState>);
-template SINEW_API ChainVelocity<Spatial> chain_velocity(const ChainLegs<Spatial>&, const SpatialPose&,
-                                                         std::span<const ChainLegState>);
+template std::vector<double> least_norm_rates(const ChainVelocity<Planar>&, const Vec<double, 3>&);
+template std::vector<double> least_norm_rates(const ChainVelocity<Spatial>&, const Vec<double, 6>&);
+template ChainVelocity<Planar> chain_velocity(const ChainLegs<Planar>&, const PlanarPose&,
+                                              std::span<const ChainLegState>);
+template ChainVelocity<Spatial> chain_velocity(const ChainLegs<Spatial>&, const SpatialPose&,
+                                               std::span<const ChainLegState>);
 
 }  // namespace sinew::inline v1

@@ -32,13 +32,13 @@ struct ChainVelocity {
 /// are fewer, `bad_input` of more than `max_rows`. No heap.
 /// @implements TDPCR (35), (40)
 template <class Space>
-SINEW_API ChainVelocity<Space> chain_velocity(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
-                                              std::span<const ChainLegState> legs);
+ChainVelocity<Space> chain_velocity(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
+                                    std::span<const ChainLegState> legs);
 
 /// The shortest rates of all joints for a twist, leg by leg: θ̇ = g (J t)ᵢ/|g|². Not finite where a leg is of
 /// type I. Allocates.
 template <class Space>
-SINEW_API std::vector<double> least_norm_rates(const ChainVelocity<Space>& velocity,
-                                               const Vec<double, Space::dof>& twist);
+std::vector<double> least_norm_rates(const ChainVelocity<Space>& velocity,
+                                     const Vec<double, Space::dof>& twist);
 
 }  // namespace sinew::inline v1

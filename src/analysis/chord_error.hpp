@@ -16,7 +16,7 @@
 namespace sinew::inline v1 {
 
 /// e of a joint bent by β [rad], |β| < 2π.  @implements LSK (17)
-SINEW_API double chord_error(double bend);
+double chord_error(double bend);
 
 /// e over |β| ≤ range.
 struct ChordErrors {
@@ -25,7 +25,7 @@ struct ChordErrors {
 
 /// @param range [rad], 0 to π
 /// @implements LSK (19), (20), whose mean is a third of the largest: that of a pure square
-SINEW_API ChordErrors chord_errors(double range);
+ChordErrors chord_errors(double range);
 
 /// Ways to put c β² through e over |β| ≤ range. Integrals, not sums over samples.
 enum class QuadraticFit {
@@ -44,7 +44,7 @@ struct Quadratic {
 
 /// @param range [rad], above 0, to π
 /// @implements LSK (18)
-SINEW_API Quadratic fit_chord_error(QuadraticFit fit, double range);
+Quadratic fit_chord_error(QuadraticFit fit, double range);
 
 /// A tendon of the last section from the base to its end, discs not counted [m].
 struct TendonLengths {
@@ -54,7 +54,7 @@ struct TendonLengths {
 /// Every section bent by (β, β).
 /// @param direction of the tendon around the discs [rad]; in the paper 45°
 /// @implements LSK (21), (22)
-SINEW_API TendonLengths lengths_at_equal_bends(const SerialRobot& robot, double bend, double direction);
+TendonLengths lengths_at_equal_bends(const SerialRobot& robot, double bend, double direction);
 
 /// How often all changes of a robot need the change of one tendon by one section.
 struct TendonEvaluations {
@@ -85,7 +85,7 @@ struct LinearConsequences {
 
 /// Random bends, evenly spread over each section's limits, which must be finite, their lengths fixed. The
 /// same numbers on every machine but for rounding.
-SINEW_API LinearConsequences linear_consequences(const SerialRobot& robot, int poses, std::uint32_t seed);
+LinearConsequences linear_consequences(const SerialRobot& robot, int poses, std::uint32_t seed);
 
 /// What LSK leaves slack at most: this and all sections before it at the corner of their limits.
 struct LinearSlack {
@@ -94,10 +94,10 @@ struct LinearSlack {
 };
 
 /// Of each section; limits must be finite, lengths fixed.
-SINEW_API std::vector<LinearSlack> largest_linear_slack(const SerialRobot& robot);
+std::vector<LinearSlack> largest_linear_slack(const SerialRobot& robot);
 
 /// How far from a bend the exact geometry lets the first section be where its tendons were driven there by
 /// LSK; in the coordinates of the bend [rad]. NaN where the set has several parts.
-SINEW_API double linear_freedom(const Section& section, const Bend& bend);
+double linear_freedom(const Section& section, const Bend& bend);
 
 }  // namespace sinew::inline v1

@@ -13,9 +13,9 @@ namespace sinew::inline v1 {
 /// Homogenised rows (fx, fy, m/radius), without unit and up to 24, of lines in the plane; `reference` is O′
 /// in the base frame [m], `radius` that by which moments were divided [m]. No heap. Rows of zeros (a leg
 /// without a line) count as absent.
-SINEW_API TypeTwo classify(const MatrixView& lines, const Vec2<double>& reference, double radius);
+TypeTwo classify(const MatrixView& lines, const Vec2<double>& reference, double radius);
 
 /// The same in space: rows (f, m/radius) of six numbers, without unit; `reference` and `radius` [m].
-SINEW_API TypeTwo classify(const MatrixView& lines, const Vec3<double>& reference, double radius);
+TypeTwo classify(const MatrixView& lines, const Vec3<double>& reference, double radius);
 
 }  // namespace sinew::inline v1

@@ -10,8 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/base/export.hpp"
-
 namespace sinew::inline v1 {
 
 /// A tendon in the plane of a joint's bend, at δ = 0. A fixed-point number knows no unit: lengths are in the
@@ -53,6 +51,6 @@ struct FormatErrors {
 
 /// double, float, binary16, then fixed point from many bits to few.
 /// @param samples at least 2, evenly spaced, both ends among them
-SINEW_API std::vector<FormatErrors> format_errors(const JointTendon& tendon, int samples);
+std::vector<FormatErrors> format_errors(const JointTendon& tendon, int samples);
 
 }  // namespace sinew::inline v1

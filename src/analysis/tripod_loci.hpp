@@ -5,8 +5,6 @@
 #include <array>
 #include <optional>
 
-#include "sinew/base/export.hpp"
-
 namespace sinew::inline v1 {
 
 /// Circles of the rails and of the platform points, and the struts [m]; leg 1 lies along y, see [3PFS (7),
@@ -17,20 +15,20 @@ struct TripodSize {
 
 /// Distances of the platform points from the robot's axis, each in the plane of its hinge, over the
 /// platform's radius: the left sides of (19).  @implements 3PFS (19)
-SINEW_API std::array<double, 3> radial_positions(double e1, double e2);
+std::array<double, 3> radial_positions(double e1, double e2);
 
 /// The right sides of (19), (r_A − L)/r and (r_A + L)/r: where one of the three reaches either, that strut is
 /// square to its rail and its carriage cannot follow (type I). Between them the pose can be reached.
-SINEW_API std::array<double, 2> radial_limits(const TripodSize& size);
+std::array<double, 2> radial_limits(const TripodSize& size);
 
 /// Determinant of the left matrix of (17), rows in its order [m⁶]; NaN where a strut does not reach.
-SINEW_API double tripod_determinant(const TripodSize& size, double e1, double e2);
+double tripod_determinant(const TripodSize& size, double e1, double e2);
 
 /// |(e₁, e₂)| of the first type I in a direction [rad] from e₁ towards e₂; none up to 1.
-SINEW_API std::optional<double> inverse_locus(const TripodSize& size, double direction);
+std::optional<double> inverse_locus(const TripodSize& size, double direction);
 
 /// |(e₁, e₂)| of the first type II in a direction, before the type I: the limit that comes first. None in the
 /// directions in which type I comes first.
-SINEW_API std::optional<double> forward_locus(const TripodSize& size, double direction);
+std::optional<double> forward_locus(const TripodSize& size, double direction);
 
 }  // namespace sinew::inline v1

@@ -17,7 +17,7 @@ TendonMotor read_motor(Reader& motor);
 TendonStretch read_stretch(Reader& stretch);
 
 /// `tangent` or `chord`.
-SINEW_API ThetaIs read_theta_is(const Reader& word);
+ThetaIs read_theta_is(const Reader& word);
 
 /// Tolerance of a tendon where a file gives none [m]: a steel tendon as long as the robot stretches by 0.03 %
 /// at 60 MPa, and no encoder tells less than its step. With 0 a rounded number would be slack.

@@ -3,17 +3,16 @@
 /// docs/robot-files.md
 #pragma once
 #include "sinew/base/error.hpp"
-#include "sinew/base/export.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/robot/arm.hpp"
 
 namespace sinew::inline v1 {
 
 /// Whether a document is of a serial robot and one of its sections is elastic.
-SINEW_API bool is_arm(const Document& document);
+bool is_arm(const Document& document);
 
 /// The arm a document describes; or every error of it at once. Codes beside those of every file:
 /// `mixed_sections`, `no_tendon`, `too_many_tendons`, `guide_beyond_tip`, `missing_guide`.
-SINEW_API Expected<Arm> read_arm(const Document& document);
+Expected<Arm> read_arm(const Document& document);
 
 }  // namespace sinew::inline v1

@@ -10,14 +10,14 @@ namespace sinew::inline v1 {
 /// The lines of one value, linear between the cells' middles; pieces are joined where they meet and apart by
 /// a point that is not finite. A cell with a corner that is not finite has none. White on the dark half of
 /// the map's colours, black on the other.
-SINEW_API Series contour_line(const HeatMap& map, double level);
+Series contour_line(const HeatMap& map, double level);
 
 /// At most about `most` round values between the ends of the map's colours: 1, 2 or 5 times a power of ten
 /// apart; of a logarithmic map 1, 2 and 5 times powers of ten, or fewer of them.
-SINEW_API std::vector<double> contour_levels(const HeatMap& map, double most = 12);
+std::vector<double> contour_levels(const HeatMap& map, double most = 12);
 
 /// Those lines into the panel with the map, each with its value where there is room for it.
 /// @param width,height of the panel [px of the SVG]: how much of it a number hides
-SINEW_API void add_contours(Panel& panel, const std::vector<double>& levels, double width, double height);
+void add_contours(Panel& panel, const std::vector<double>& levels, double width, double height);
 
 }  // namespace sinew::inline v1

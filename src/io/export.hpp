@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "robot/controller.hpp"
-#include "sinew/base/export.hpp"
 
 namespace sinew::inline v1 {
 
@@ -15,10 +14,10 @@ struct ExportedFile {
 };
 
 /// A C++14 header for controllers: the tables of sinew/kernel/table.h filled in, in a namespace of that name.
-SINEW_API std::string controller_header(const ControllerTable& table, std::string_view name = "robot");
+std::string controller_header(const ControllerTable& table, std::string_view name = "robot");
 
 /// A core for an FPGA in Verilog-2005, LSK forward and inverse with states of tendons, and a testbench that
 /// works in any simulator. Its modules are named after the robot. Theory: docs/theory/controller.md
-SINEW_API std::vector<ExportedFile> controller_verilog(const ControllerTable& table);
+std::vector<ExportedFile> controller_verilog(const ControllerTable& table);
 
 }  // namespace sinew::inline v1

@@ -103,7 +103,7 @@ struct Panel {
 };
 
 /// A round distance (1, 2 or 5 times a power of ten) that is `span` / `most` or the next larger one.
-SINEW_API double round_step(double span, double most);
+double round_step(double span, double most);
 
 /// Panels in a grid, row by row. A string is taken literally: no markup.
 struct Figure {
@@ -117,7 +117,7 @@ struct Figure {
 
 enum class FigureFormat { svg, png, pdf };
 
-SINEW_API std::string_view extension(FigureFormat format) noexcept;  ///< `svg`
+std::string_view extension(FigureFormat format) noexcept;  ///< `svg`
 
 struct FigureOptions {
   std::vector<FigureFormat> formats = {FigureFormat::svg, FigureFormat::png};
@@ -135,24 +135,23 @@ struct PageLayout {
   double unit;           ///< [pt]
   int columns;           ///< of the grid of panels
 };
-SINEW_API PageLayout page_of(const Figure& figure, const FigureOptions& options);
+PageLayout page_of(const Figure& figure, const FigureOptions& options);
 
 /// The script that draws `name.svg` and the like into the folder it is run in; without a name, to stdout. The
 /// same figure gives the same bytes. No text of the figure, nor the name, is code in it. Its last line is a
 /// checksum.
-SINEW_API std::string gnuplot_script(const Figure& figure, const std::string& name,
-                                     const FigureOptions& options = {});
+std::string gnuplot_script(const Figure& figure, const std::string& name, const FigureOptions& options = {});
 
 /// Whether a script is as `gnuplot_script` made it; else somebody changed it.
-SINEW_API bool is_as_written(std::string_view script);
+bool is_as_written(std::string_view script);
 
 /// Draws a figure. The files written: its script `stem.gp` first, then one for each format; all of them are
 /// put in place at the end, or none. Where gnuplot is missing or fails the script alone is written. Codes:
 /// `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`, and `script_edited` where the script of an earlier
 /// figure was changed since.
 /// @param stem path without extension; its folder is made if need be
-SINEW_API Expected<std::vector<std::filesystem::path>> write_figure(const Figure& figure,
-                                                                    const std::filesystem::path& stem,
-                                                                    const FigureOptions& options = {});
+Expected<std::vector<std::filesystem::path>> write_figure(const Figure& figure,
+                                                          const std::filesystem::path& stem,
+                                                          const FigureOptions& options = {});
 
 }  // namespace sinew::inline v1

@@ -6,11 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/base/export.hpp"
-
 namespace sinew::inline v1 {
 
-class SINEW_API Text {
+class Text {
  public:
   enum class Style { upright, italic, subscript, superscript };
   struct Part {
@@ -40,12 +38,12 @@ class SINEW_API Text {
 /// A text of ours with its symbols set: a letter that stands alone, Latin or Greek, is italic; `_` sets the
 /// letters and digits after it as an index, `^` a whole number as an exponent: `‖U_p‖`, `e_3`, `x^2`. Not for
 /// texts of files.
-SINEW_API Text formula(std::string_view text);
+Text formula(std::string_view text);
 
 /// A unit as journals set it: `deg` is °, `m^4` has an exponent. Anything else is literal.
-SINEW_API Text unit_text(std::string_view unit);
+Text unit_text(std::string_view unit);
 
 /// `tension (N)`; the label alone where there is no unit.
-SINEW_API Text with_unit(const Text& label, std::string_view unit);
+Text with_unit(const Text& label, std::string_view unit);
 
 }  // namespace sinew::inline v1

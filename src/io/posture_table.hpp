@@ -13,15 +13,15 @@
 namespace sinew::inline v1 {
 
 /// Names of a section's two angles, as `forward` takes them.
-SINEW_API std::array<std::string, 2> bend_names(const Section& section, std::size_t number);
+std::array<std::string, 2> bend_names(const Section& section, std::size_t number);
 
 /// The angles themselves: of a neutral backbone how far it bends and where to.
-SINEW_API std::array<double, 2> bend_angles(const Section& section, const Bend& bend);
+std::array<double, 2> bend_angles(const Section& section, const Bend& bend);
 
 /// The postures in a table, whatever else it has. Codes: `missing_column`, `no_rows`, `not_a_number`,
 /// `wrong_dimension` (a unit of something else).
 /// @param file names the table in errors
-SINEW_API Expected<std::vector<SerialPosture>> read_postures(const Table& table, const SerialRobot& robot,
-                                                             const std::string& file);
+Expected<std::vector<SerialPosture>> read_postures(const Table& table, const SerialRobot& robot,
+                                                   const std::string& file);
 
 }  // namespace sinew::inline v1

@@ -6,12 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/base/export.hpp"
-
 namespace sinew::inline v1 {
 
 /// What a program came to.
-struct SINEW_API ProcessResult {
+struct ProcessResult {
   int spawn_error = 0;   ///< errno of the start; 0: it started
   int status = 0;        ///< of waitpid
   std::string output;    ///< its stdout
@@ -25,7 +23,7 @@ struct SINEW_API ProcessResult {
 
 /// Runs a program, by name or path, in a folder, and waits for its end.
 /// @param input what it reads on stdin
-SINEW_API ProcessResult run_process(std::vector<std::string> arguments, const std::filesystem::path& folder,
-                                    std::string_view input = {});
+ProcessResult run_process(std::vector<std::string> arguments, const std::filesystem::path& folder,
+                          std::string_view input = {});
 
 }  // namespace sinew::inline v1

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "sinew/base/error.hpp"
-#include "sinew/base/export.hpp"
 #include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
@@ -17,7 +16,7 @@ std::string_view trimmed(std::string_view text);
 /// `"175 mm"`, `"24 deg"`, `"1/2 in"`, `"0.175"` in SI. With a decimal unit the answer is the very double
 /// that the SI spelling has: `"175 mm"` is `0.175`. Errors: `wrong_dimension`, `unknown_unit`,
 /// `not_a_number`, `not_whole`; they have no place.
-SINEW_API Expected<double> parse_quantity(std::string_view text, Dimension dimension);
+Expected<double> parse_quantity(std::string_view text, Dimension dimension);
 
 /// A number and what it measures, which its unit tells.
 struct Quantity {
@@ -26,24 +25,24 @@ struct Quantity {
 };
 
 /// Any quantity. Errors: as `parse_quantity`.
-SINEW_API Expected<Quantity> parse_any_quantity(std::string_view text);
+Expected<Quantity> parse_any_quantity(std::string_view text);
 
 /// The whole text as a finite decimal number, else nothing (`0x10`, `inf` and `nan` are no numbers here).
-SINEW_API std::optional<double> parse_number(std::string_view text);
+std::optional<double> parse_number(std::string_view text);
 
 /// SI symbol: `m`, `rad`, `N m`; empty for numbers.
-SINEW_API std::string_view unit(Dimension dimension);
+std::string_view unit(Dimension dimension);
 
 /// `a length`, `an angle`, `a whole number`.
-SINEW_API std::string_view noun(Dimension dimension);
+std::string_view noun(Dimension dimension);
 
 /// What to write, for messages: `a length ("0.2 m", "200 mm", or 0.2 for metres)`.
-SINEW_API std::string_view advice(Dimension dimension);
+std::string_view advice(Dimension dimension);
 
 /// For people: lengths in mm, angles in deg, the rest in SI, six digits, with the unit.
-SINEW_API std::string human(double si, Dimension dimension);
+std::string human(double si, Dimension dimension);
 
 /// The shortest text that reads back as the same number.
-SINEW_API std::string si_text(double value);
+std::string si_text(double value);
 
 }  // namespace sinew::inline v1

@@ -11,9 +11,9 @@
 namespace sinew::inline v1 {
 
 /// Its size in bytes. Codes: `file_missing`, `file_unreadable`.
-SINEW_API Expected<std::uintmax_t> regular_file_size(const std::filesystem::path& path);
+Expected<std::uintmax_t> regular_file_size(const std::filesystem::path& path);
 
 /// Its bytes. Codes: those, `too_large`.
-SINEW_API Expected<std::string> read_bytes(const std::filesystem::path& path, std::uintmax_t most);
+Expected<std::string> read_bytes(const std::filesystem::path& path, std::uintmax_t most);
 
 }  // namespace sinew::inline v1

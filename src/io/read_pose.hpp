@@ -17,15 +17,15 @@ struct PoseRange {
 };
 
 /// `{x, y, phi}`, all required.
-SINEW_API PlanarPose read_planar_pose(Reader pose);
+PlanarPose read_planar_pose(Reader pose);
 
 /// `{position: [x, y, z], quaternion: [w, x, y, z]}`; the quaternion need not be normalised; no turn
 /// where it is left out. In its place `tilt`, `azimuth`, `torsion`, see math/tilt.hpp, each 0 by default.
-SINEW_API SpatialPose read_spatial_pose(Reader pose);
+SpatialPose read_spatial_pose(Reader pose);
 
 /// `[x, y, z]`: what falls falls so [m/s²], base axes.
-SINEW_API Vec3<double> read_gravity(const Reader& gravity);
+Vec3<double> read_gravity(const Reader& gravity);
 /// The same of a robot that may be one in the plane, where gravity acts in it.
-SINEW_API std::array<double, 3> read_gravity_of(const Reader& gravity, bool is_planar);
+std::array<double, 3> read_gravity_of(const Reader& gravity, bool is_planar);
 
 }  // namespace sinew::inline v1

@@ -22,7 +22,6 @@
 #include <vector>
 
 #include "sinew/base/error.hpp"
-#include "sinew/base/export.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/units.hpp"
 
@@ -30,7 +29,7 @@ namespace sinew::inline v1 {
 
 /// Document, sink and nodes must outlive the reader. It moves, but is not copied: it remembers which keys
 /// were asked.
-class SINEW_API Reader {
+class Reader {
  public:
   /// Errors beyond this many are not collected; the last one says so.
   static constexpr std::size_t error_limit = 100;

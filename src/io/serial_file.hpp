@@ -11,15 +11,15 @@
 namespace sinew::inline v1 {
 
 /// Whether a document says `kind: serial`.
-SINEW_API bool is_serial(const Document& document);
+bool is_serial(const Document& document);
 
 /// The serial robot a document describes.
-SINEW_API Expected<SerialRobot> read_serial_robot(const Document& document);
+Expected<SerialRobot> read_serial_robot(const Document& document);
 
 /// The motor a document describes: `lead`, `counts`, `gear`, as under the key `motor` of a robot.
-SINEW_API Expected<TendonMotor> read_motor(const Document& document);
+Expected<TendonMotor> read_motor(const Document& document);
 
 /// The same document with `sections: {count, ...}` written out as a list; unchanged if it is one.
-SINEW_API Expected<Document> expanded_sections(const Document& document);
+Expected<Document> expanded_sections(const Document& document);
 
 }  // namespace sinew::inline v1

@@ -17,7 +17,7 @@
 namespace sinew::inline v1 {
 
 /// One file on its way. Destroyed before it is finished, it leaves nothing.
-class SINEW_API FileWriter {
+class FileWriter {
  public:
   /// Makes the folders above it. Code of this and all that follows: `file_unwritable`; the message has the
   /// system's reason.
@@ -71,15 +71,15 @@ class SINEW_API FileWriter {
 };
 
 /// Puts several files in their places: all of them, or none.
-SINEW_API Expected<void> finish_together(std::span<FileWriter> files);
+Expected<void> finish_together(std::span<FileWriter> files);
 
 /// `path` with symbolic links followed to the name they lead to, which need not exist.
-SINEW_API Expected<std::filesystem::path> without_links(const std::filesystem::path& path);
+Expected<std::filesystem::path> without_links(const std::filesystem::path& path);
 
 /// Whether there is something that is written in place: a device, a pipe.
-SINEW_API bool is_stream(const std::filesystem::path& path);
+bool is_stream(const std::filesystem::path& path);
 
 /// What `FileWriter` says of an errno: `cannot be written: No space left on device; make room on the disc`.
-SINEW_API std::string unwritable(int reason);
+std::string unwritable(int reason);
 
 }  // namespace sinew::inline v1

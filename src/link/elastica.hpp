@@ -138,12 +138,12 @@ struct ElasticaTangent {
   Vec2<double> tip_angle_rate, base_curvature_rate, energy_rate;
 
   /// ∂(d, w)/∂(fd, fw), symmetric; not finite where `force_rate` is singular.
-  SINEW_API Mat<double, 2, 2> compliance() const;
+  Mat<double, 2, 2> compliance() const;
   /// ∂(fd, fw)/∂(d, w), symmetric; not finite where `tip_rate` is singular.
-  SINEW_API Mat<double, 2, 2> stiffness() const;
+  Mat<double, 2, 2> stiffness() const;
 };
 
-SINEW_API ElasticaTangent elastica_tangent(const Vec2<double>& local_force);
+ElasticaTangent elastica_tangent(const Vec2<double>& local_force);
 
 /// The rod under a given tip force.
 struct ElasticaTip {
@@ -159,10 +159,10 @@ struct ElasticaTip {
 
 /// The rod without inflection: the state that continues the one under tension, stable under a dead force.
 /// Where the force is purely axial and compresses beyond π²/4, that which is buckled towards d > 0.
-SINEW_API ElasticaTip elastica_under_force(const Vec2<double>& force);
+ElasticaTip elastica_under_force(const Vec2<double>& force);
 
 /// The solution Newton's method finds from this tip angle [rad]: of several, one nearby.
-SINEW_API ElasticaTip elastica_under_force(const Vec2<double>& force, double near_tip_angle);
+ElasticaTip elastica_under_force(const Vec2<double>& force, double near_tip_angle);
 
 struct ElasticaSection {
   Vec2<double> position;  ///< (d, w)
@@ -171,8 +171,8 @@ struct ElasticaSection {
 };
 
 /// The cross-sections at arc lengths s ∈ [0, 1] from the base, into `out` (of the same size).
-SINEW_API void elastica_sections(const Vec2<double>& local_force, std::span<const double> s,
-                                 std::span<ElasticaSection> out);
+void elastica_sections(const Vec2<double>& local_force, std::span<const double> s,
+                       std::span<ElasticaSection> out);
 
 /// What the unit rod's numbers are multiplied by for a rod of length L [m] and bending stiffness EI [N m²].
 struct ElasticaUnits {

@@ -47,9 +47,9 @@ struct ElasticaMap {
 /// the tip or its mirror image. That is no proof of completeness; cells of a third of the size found no other
 /// in 2400 random tips, many of them near folds. Two that are closer than 1e-6 of the force, or that the tip
 /// cannot tell apart to 4e-14, are told as one. About 9000 evaluations: some ms.
-SINEW_API ElasticaMap elastica_map(const Vec2<double>& tip, const ElasticaMapOptions& options = {});
+ElasticaMap elastica_map(const Vec2<double>& tip, const ElasticaMapOptions& options = {});
 
 /// The stability and stiffness of one equilibrium, from its local force: what the map says of each.
-SINEW_API ElasticaEquilibrium elastica_equilibrium(const Vec2<double>& local_force);
+ElasticaEquilibrium elastica_equilibrium(const Vec2<double>& local_force);
 
 }  // namespace sinew::inline v1

@@ -9,7 +9,6 @@
 ///
 /// Body axes: u, v, u*, the section's numbers. Base axes, that is those of whoever asks: p, R, n, m, f.
 #pragma once
-#include "sinew/base/export.hpp"
 #include "sinew/math/vec.hpp"
 
 namespace sinew::inline v1 {
@@ -26,19 +25,19 @@ struct SpatialRod {
   Vec3<double> load{0, 0, 0};            ///< f, dead force per unstressed length, base axes [N/m]
 
   /// A round solid section. @param youngs_modulus E [Pa] @param shear_modulus G [Pa] @param diameter [m]
-  SINEW_API static SpatialRod round(double youngs_modulus, double shear_modulus, double diameter,
-                                    RodLaw law = RodLaw::kirchhoff);
+  static SpatialRod round(double youngs_modulus, double shear_modulus, double diameter,
+                          RodLaw law = RodLaw::kirchhoff);
 
   /// A rectangular solid section: `width` along its x, `height` along its y [m].
-  SINEW_API static SpatialRod strip(double youngs_modulus, double shear_modulus, double width, double height,
-                                    RodLaw law = RodLaw::kirchhoff);
+  static SpatialRod strip(double youngs_modulus, double shear_modulus, double width, double height,
+                          RodLaw law = RodLaw::kirchhoff);
 
   /// Finite numbers, stiffnesses positive, compliances not negative.
-  SINEW_API bool is_valid() const;
+  bool is_valid() const;
   /// Neither shears nor stretches.
   bool is_kirchhoff() const { return shear_compliance.isZero(0) && extension_compliance == 0; }
   /// The section does not tell its x from its y: turned about its tangent it is the same rod.
-  SINEW_API bool is_isotropic() const;
+  bool is_isotropic() const;
 };
 
 /// What the ends leave free. Wherever a turn is free, its moment is zero.

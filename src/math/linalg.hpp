@@ -32,36 +32,35 @@ struct Svd {
 /// min(rows, columns) singular values into `out`, descending. Those of a 3×3 matrix each to 1e-13 of itself,
 /// however ill-conditioned the matrix; others to a few eps of the largest. Allocates for more columns than
 /// max_rows.
-SINEW_API void singular_values(const MatrixView& a, std::span<double> out);
+void singular_values(const MatrixView& a, std::span<double> out);
 
 /// The decomposition of a matrix of at most `max_rows` rows and columns.
-SINEW_API Svd svd(const MatrixView& a);
+Svd svd(const MatrixView& a);
 
 /// How many singular values exceed tolerance·(the largest); 0 for a matrix of zeros.
-SINEW_API int rank(std::span<const double> sigma, double tolerance = 1e-12);
+int rank(std::span<const double> sigma, double tolerance = 1e-12);
 
 /// J⁻¹B (n×m, rows first) into `out`, by LU with partial pivoting. False, and `out` not to be used, if J is
 /// singular to working precision (estimated reciprocal condition number below n eps) or not finite.
-[[nodiscard]] SINEW_API bool solve(const MatrixView& j, const MatrixView& b, std::span<double> out);
+[[nodiscard]] bool solve(const MatrixView& j, const MatrixView& b, std::span<double> out);
 
 /// The shortest x that minimises |A x − b|, into `out`; singular values up to tolerance·(the largest) count
 /// as 0. Returns the rank.
-SINEW_API int least_norm(const MatrixView& a, std::span<const double> b, std::span<double> out,
-                         double tolerance = 1e-12);
+int least_norm(const MatrixView& a, std::span<const double> b, std::span<double> out,
+               double tolerance = 1e-12);
 
 /// Eigenvalues of the symmetric part (A + Aᵀ)/2 of a square matrix, ascending, into `values`; where `vectors`
 /// is not empty the eigenvectors too, one a row.
-SINEW_API void symmetric_eigenvalues(const MatrixView& a, std::span<double> values,
-                                     std::span<double> vectors = {});
+void symmetric_eigenvalues(const MatrixView& a, std::span<double> values, std::span<double> vectors = {});
 
 /// How many eigenvalues of the symmetric part are negative. Of a matrix that is clearly positive definite, as
 /// most stiffnesses are, it is told by its pivots, in a tenth of the time.
-SINEW_API int count_negative_eigenvalues(const MatrixView& a);
+int count_negative_eigenvalues(const MatrixView& a);
 
 /// How many eigenvalues of a square matrix have a real part below 0; none where an entry is not finite.
-SINEW_API int count_left_of_zero(const MatrixView& a);
+int count_left_of_zero(const MatrixView& a);
 
 /// Of a square matrix.
-SINEW_API double determinant(const MatrixView& a);
+double determinant(const MatrixView& a);
 
 }  // namespace sinew::inline v1

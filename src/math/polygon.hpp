@@ -16,20 +16,20 @@ namespace sinew::inline v1 {
 
 /// What the half-planes have in common; absent where it is unbounded. A set thinner than rounding, on either
 /// side of nothing, is a segment or a point. Takes time ~ count³.
-SINEW_API std::optional<Polygon> intersection(std::span<const HalfPlane> half_planes);
+std::optional<Polygon> intersection(std::span<const HalfPlane> half_planes);
 
 /// Where two lines cross; absent where they are parallel.
-SINEW_API std::optional<Vec2<double>> crossing(const HalfPlane& a, const HalfPlane& b);
+std::optional<Vec2<double>> crossing(const HalfPlane& a, const HalfPlane& b);
 
 /// Area, 0 of a segment or a point.
-SINEW_API double area(const Polygon& polygon);
+double area(const Polygon& polygon);
 
 /// The smallest convex set that holds the points. Those closer than `tolerance` are one, and no vertex lies
 /// within `tolerance` of the line through its neighbours.
-SINEW_API Polygon hull(Polygon points, double tolerance);
+Polygon hull(Polygon points, double tolerance);
 
 /// All differences a − b. The Minkowski sum of a and the mirror image of b.
-SINEW_API Polygon difference(const Polygon& a, const Polygon& b);
+Polygon difference(const Polygon& a, const Polygon& b);
 
 /// A polygon cut with the disc |x| ≤ radius. From corner k to the next the boundary is straight where arc[k]
 /// is 0, else an arc of the circle over that angle [rad], counter-clockwise. A whole disc is one corner with
@@ -40,12 +40,12 @@ struct DiscCut {
   std::vector<double> arc;  ///< of each corner [rad]
 };
 /// The polygon cut with the disc |x| ≤ radius.
-SINEW_API DiscCut cut_with_disc(const Polygon& polygon, double radius);
+DiscCut cut_with_disc(const Polygon& polygon, double radius);
 
 /// Area, circular segments included.
-SINEW_API double area(const DiscCut& cut);
+double area(const DiscCut& cut);
 
 /// Points of the boundary; a chord between them is nowhere farther from its arc than `deviation`.
-SINEW_API Polygon boundary(const DiscCut& cut, double deviation);
+Polygon boundary(const DiscCut& cut, double deviation);
 
 }  // namespace sinew::inline v1

@@ -7,8 +7,6 @@
 #include <array>
 #include <span>
 
-#include "sinew/base/export.hpp"
-
 namespace sinew::inline v1 {
 
 /// Highest degree `real_roots` takes.
@@ -35,6 +33,6 @@ struct PolynomialOptions {
 
 /// Roots of c₀ + c₁x + … + cₙxⁿ, n ≤ `max_degree`. No heap, bounded work. None where a coefficient is not
 /// finite.
-SINEW_API PolynomialRoots real_roots(std::span<const double> coefficients, const PolynomialOptions& options);
+PolynomialRoots real_roots(std::span<const double> coefficients, const PolynomialOptions& options);
 
 }  // namespace sinew::inline v1

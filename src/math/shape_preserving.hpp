@@ -6,11 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "sinew/base/export.hpp"
-
 namespace sinew::inline v1 {
 
-class SINEW_API ShapePreservingCurve {
+class ShapePreservingCurve {
  public:
   /// @param parameters of the points, each greater than the one before
   /// @param values a row a point, as many as there are coordinates

@@ -43,18 +43,18 @@ struct Compressor {
 
 /// The compressor with other clocking of its rows, blades, removed blades and target, drawn by the seed:
 /// harder and easier ones.
-SINEW_API Compressor drawn_compressor(std::uint64_t seed);
+Compressor drawn_compressor(std::uint64_t seed);
 
 /// What cannot be built, as `out_of_range`.
-SINEW_API Errors compressor_errors(const Compressor& compressor);
+Errors compressor_errors(const Compressor& compressor);
 
 /// Its solids: `case`, `hub`, and every blade.
-SINEW_API std::vector<Mesh> compressor_meshes(const Compressor& compressor);
+std::vector<Mesh> compressor_meshes(const Compressor& compressor);
 
 /// The task of getting in: at stage 0 the straight robot's tip is at the outside of the case.
-SINEW_API InsertionScene compressor_scene(const Compressor& compressor, SerialRobot robot);
+InsertionScene compressor_scene(const Compressor& compressor, SerialRobot robot);
 
 /// The same as a scene file, each solid in an STL file of its name.
-SINEW_API std::string compressor_scene_text(const Compressor& compressor, const SerialRobot& robot);
+std::string compressor_scene_text(const Compressor& compressor, const SerialRobot& robot);
 
 }  // namespace sinew::inline v1

@@ -14,11 +14,11 @@ namespace sinew::inline v1 {
 /// before or behind the robot.
 /// @param steps with what a check found of them
 /// @param phases how many, > 0
-SINEW_API Figure insertion_phases(const InsertionScene& scene, std::span<const InsertionStep> steps,
-                                  const InsertionCheck& check, int phases);
+Figure insertion_phases(const InsertionScene& scene, std::span<const InsertionStep> steps,
+                        const InsertionCheck& check, int phases);
 
 /// Clearance and bends over the stage.
-SINEW_API Figure insertion_curves(const InsertionScene& scene, std::span<const InsertionStep> steps,
-                                  const InsertionCheck& check);
+Figure insertion_curves(const InsertionScene& scene, std::span<const InsertionStep> steps,
+                        const InsertionCheck& check);
 
 }  // namespace sinew::inline v1

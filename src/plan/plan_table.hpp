@@ -12,15 +12,14 @@
 namespace sinew::inline v1 {
 
 /// @param seed that the plan was made with
-SINEW_API Table plan_table(const InsertionScene& scene, const InsertionPlan& plan, std::uint64_t seed);
+Table plan_table(const InsertionScene& scene, const InsertionPlan& plan, std::uint64_t seed);
 
 /// The steps in such a table, whatever else it has. Codes: `missing_column`, `no_rows`, `not_a_number`.
 /// @param file names the table in errors
-SINEW_API Expected<std::vector<InsertionStep>> plan_steps(const Table& table, const InsertionScene& scene,
-                                                          const std::string& file);
+Expected<std::vector<InsertionStep>> plan_steps(const Table& table, const InsertionScene& scene,
+                                                const std::string& file);
 
 /// The two angles of each section at a step, as such a table has them and `forward` takes them.
-SINEW_API std::vector<std::array<double, 2>> plan_angles(const InsertionScene& scene,
-                                                         const InsertionStep& step);
+std::vector<std::array<double, 2>> plan_angles(const InsertionScene& scene, const InsertionStep& step);
 
 }  // namespace sinew::inline v1

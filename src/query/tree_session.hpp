@@ -13,7 +13,7 @@ class RowPlaces;
 struct SamplerKind;
 
 /// As Session. Not for two threads at once: open one a thread.
-class SINEW_API TreeSession {
+class TreeSession {
  public:
   static Expected<TreeSession> open(Document robot);
   /// One to the same robot in which nothing was asked yet.

@@ -125,9 +125,9 @@ std::vector<Vec<double, Space::dimension>> chain_points(
   return points;
 }
 
-template SINEW_API std::vector<Vec2<double>> chain_points(const ChainLeg<Planar>&, std::span<const double>,
-                                                          const SE2<double>&);
-template SINEW_API std::vector<Vec3<double>> chain_points(const ChainLeg<Spatial>&, std::span<const double>,
-                                                          const SE3<double>&);
+template std::vector<Vec2<double>> chain_points(const ChainLeg<Planar>&, std::span<const double>,
+                                                const SE2<double>&);
+template std::vector<Vec3<double>> chain_points(const ChainLeg<Spatial>&, std::span<const double>,
+                                                const SE3<double>&);
 
 }  // namespace sinew::inline v1

@@ -7,7 +7,6 @@
 
 #include "leg/space.hpp"
 #include "link/pseudo_rigid.hpp"
-#include "sinew/base/export.hpp"
 #include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v1 {
@@ -69,7 +68,7 @@ typename Space::template Frame<double> chain_frame(const ChainLeg<Space>& leg, s
 
 /// Base point, joints and tip of a chain, base axes, where it leads to the platform. Allocates.
 template <class Space>
-SINEW_API std::vector<Vec<double, Space::dimension>> chain_points(
+std::vector<Vec<double, Space::dimension>> chain_points(
     const ChainLeg<Space>& leg, std::span<const double> angles,
     const typename Space::template Frame<double>& platform);
 

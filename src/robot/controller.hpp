@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "sinew/base/error.hpp"
-#include "sinew/base/export.hpp"
 #include "sinew/robot/serial.hpp"
 
 namespace sinew::inline v1 {
@@ -31,7 +30,7 @@ struct ControllerSection {
   std::vector<double> series;               ///< of the chord's loss by the square of the bend
 };
 
-struct SINEW_API ControllerTable {
+struct ControllerTable {
   std::string robot;
   std::vector<ControllerSection> sections;
   kernel::Model model = kernel::Model::linear;  ///< by which a controller drives its tendons
@@ -54,10 +53,10 @@ struct SINEW_API ControllerTable {
 };
 
 /// The nearest integer with so many bits behind the point; what does not fit `bits` saturates.
-SINEW_API std::int64_t fixed_point(double value, int fraction, int bits = 16);
+std::int64_t fixed_point(double value, int fraction, int bits = 16);
 
 /// Errors: `extensible`, `unlike_tendons`, `no_limit`, `unlike_gains`, `out_of_range`.
-SINEW_API Expected<ControllerTable> make_controller_table(const SerialRobot& robot,
-                                                          kernel::Model model = kernel::Model::linear);
+Expected<ControllerTable> make_controller_table(const SerialRobot& robot,
+                                                kernel::Model model = kernel::Model::linear);
 
 }  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 namespace sinew::inline v1 {
 
 /// A length given in metres as people read it, "12.5 mm", written into `buffer` without the heap.
-SINEW_API std::string_view format_mm(double metres, std::span<char> buffer) noexcept;
+std::string_view format_mm(double metres, std::span<char> buffer) noexcept;
 
 /// Appends a length given in metres, "12.5 mm".
 template <std::size_t Capacity>
@@ -22,7 +22,7 @@ void append_mm(FixedText<Capacity>& text, double metres) {
 }
 
 /// An angle given in radians as people read it, "12.5 deg", written into `buffer` without the heap.
-SINEW_API std::string_view format_degrees(double radians, std::span<char> buffer) noexcept;
+std::string_view format_degrees(double radians, std::span<char> buffer) noexcept;
 
 /// Appends an angle given in radians, "12.5 deg".
 template <std::size_t Capacity>

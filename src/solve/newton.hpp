@@ -73,9 +73,9 @@ Vec<double, N> damped_step(const Linearised<N>& system, double damping) {
 }
 
 // Of the sizes that robots have; compiling them takes a second or two each.
-#define SINEW_NEWTON_STEPS(N)                                                                       \
-  extern template SINEW_API bool newton_step<N>(const Linearised<N>& system, Vec<double, N>& step); \
-  extern template SINEW_API Vec<double, N> damped_step<N>(const Linearised<N>& system, double damping);
+#define SINEW_NEWTON_STEPS(N)                                                             \
+  extern template bool newton_step<N>(const Linearised<N>& system, Vec<double, N>& step); \
+  extern template Vec<double, N> damped_step<N>(const Linearised<N>& system, double damping);
 SINEW_NEWTON_STEPS(3)
 SINEW_NEWTON_STEPS(6)
 SINEW_NEWTON_STEPS(8)

@@ -30,6 +30,6 @@ class Ranks {
 
 /// The ranks this process is one of; null where it was started alone. To be called once, and destroyed before
 /// the process ends. Code `no_mpi`: there are several ranks, but this sinew was built without MPI.
-SINEW_API Expected<std::unique_ptr<Ranks>> join_ranks();
+Expected<std::unique_ptr<Ranks>> join_ranks();
 
 }  // namespace sinew::inline v1

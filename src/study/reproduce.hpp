@@ -28,7 +28,7 @@ struct StudyItem {
 };
 
 /// All of them, in the order of the papers.
-SINEW_API std::span<const StudyItem> study_items();
+std::span<const StudyItem> study_items();
 
 /// One number or claim of the paper beside ours, formatted for people.
 struct Finding {
@@ -57,18 +57,17 @@ struct ItemResult {
 };
 
 /// Writes it into a folder: tables, findings, then figures. Codes: as `reproduce`.
-SINEW_API Expected<Reproduction> write_item(const StudyItem& item, const ItemResult& made,
-                                            const std::filesystem::path& folder,
-                                            const FigureOptions& page = {});
+Expected<Reproduction> write_item(const StudyItem& item, const ItemResult& made,
+                                  const std::filesystem::path& folder, const FigureOptions& page = {});
 
 /// Makes one item again; its files go to `out`/paper/. What is written before an error stays: without gnuplot
 /// the table, the findings and the scripts of the figures are there. Codes: `unknown_study`,
 /// `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`, `script_edited`.
 /// @param page of the figures: width, font, formats, and whether scripts that were edited are replaced
-SINEW_API Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out,
-                                           const FigureOptions& page = {});
+Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out,
+                                 const FigureOptions& page = {});
 
 /// The findings as a Markdown table.
-SINEW_API std::string to_markdown(const Reproduction& reproduction);
+std::string to_markdown(const Reproduction& reproduction);
 
 }  // namespace sinew::inline v1

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "sinew/base/export.hpp"
 #include "sinew/tendon/diagram.hpp"
 
 namespace sinew::inline v1 {
@@ -19,10 +18,10 @@ struct StateWords {
 };
 
 /// @param diagram the answer to the question
-SINEW_API StateWords state_words(const DiagramQuestion& question, const SectionDiagram& diagram);
+StateWords state_words(const DiagramQuestion& question, const SectionDiagram& diagram);
 
-SINEW_API std::string_view state_word(TendonConsistency agree, bool is_partial);
+std::string_view state_word(TendonConsistency agree, bool is_partial);
 /// `tendons 1, 2 and 3`, from indices.
-SINEW_API std::string tendon_names(std::span<const std::size_t> tendons);
+std::string tendon_names(std::span<const std::size_t> tendons);
 
 }  // namespace sinew::inline v1

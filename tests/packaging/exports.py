@@ -1,17 +1,11 @@
-"""What of C++ a shared library exports beyond what headers declare: exports.py LIBRARY INSTALLED_HEADERS SOURCES
+"""That a shared library exports what headers declare, and nothing else: exports.py LIBRARY HEADERS
 
-A name has to stand in an installed header, or in a header of the sources that marks it with SINEW_API: the libraries of
-studies and plans, which are built with it, use those.
+Of C it exports the functions of sinew.h, all of them; of C++ names that stand in an installed header.
 """
 import pathlib
 import re
 import subprocess
 import sys
-
-
-def words_of(folder, is_fit=lambda text: True):
-    texts = (path.read_text() for path in sorted(pathlib.Path(folder).rglob("*.h*")))
-    return set(re.findall(r"[A-Za-z_]\w*", "\n".join(re.sub(r"//.*", "", text) for text in texts if is_fit(text))))
 
 
 def function_of(symbol):
@@ -30,25 +24,27 @@ def function_of(symbol):
     return name.replace("[abi:cxx11]", "").split(" ")[-1]
 
 
+def is_declared(name, words):
+    parts = name.split("::")
+    return parts[:2] == ["sinew", "v1"] and all(part.lstrip("~") in words for part in parts[2:] if re.fullmatch(r"~?\w+", part))
+
+
 def main():
-    library, installed, sources = sys.argv[1:]
+    library, headers = sys.argv[1], pathlib.Path(sys.argv[2])
     listed = subprocess.run(["nm", "--dynamic", "--defined-only", "--demangle", library], capture_output=True, text=True, check=True)
-    public, marked = words_of(installed), words_of(sources, lambda text: "SINEW_API" in text)
-    count, inner, strange = 0, 0, []
-    for line in listed.stdout.splitlines():
-        name = function_of(line.split(" ", 2)[2])
-        if not name.startswith("sinew::v1::"):
-            continue
-        count += 1
-        words = [word.lstrip("~") for word in name.split("::")[2:] if re.fullmatch(r"~?\w+", word)]
-        if all(word in public for word in words):
-            continue
-        inner += 1
-        if not all(word in public | marked for word in words):
-            strange.append(name)
-    if strange or count == 0:
-        sys.exit("exported, and in no header that marks it:\n  " + "\n  ".join(sorted(set(strange))))
-    print(f"{count} symbols of C++, {inner} of them of headers that are not installed")
+    names = [line.split(" ", 2)[2] for line in listed.stdout.splitlines()]
+    of_c = {name for name in names if re.fullmatch(r"sinew_\w+", name)}
+    of_cpp = [function_of(name) for name in names if name not in of_c]
+
+    declared = set(re.findall(r"^SINEW_C_API .*?(sinew_\w+)\(", (headers / "sinew.h").read_text(), re.M))
+    if of_c != declared:
+        sys.exit(f"sinew.h declares {sorted(declared)}; exported are {sorted(of_c)}")
+    texts = "\n".join(path.read_text() for path in headers.rglob("*.hpp"))
+    words = set(re.findall(r"[A-Za-z_]\w*", re.sub(r"//.*", "", texts)))
+    strange = sorted({name for name in of_cpp if not is_declared(name, words)})
+    if strange or not of_cpp:
+        sys.exit("exported, and in no header that is installed:\n  " + "\n  ".join(strange))
+    print(f"exported: {len(of_c)} functions of C, {len(of_cpp)} names of C++ that installed headers declare, no others")
 
 
 main()

@@ -1,8 +1,7 @@
-# Builds and runs the consumer against sinew.  cmake -D MODE=install|subdirectory|shared -D SOURCE= -D BUILD= -D WORK=
+# Builds and runs the consumer against sinew.  cmake -D MODE=install|subdirectory -D SOURCE= -D BUILD= -D WORK=
 #   -D JOBS= -D PYTHON= -D COMPILER= -D LAUNCHER= -D BUILD_TYPE= -D FLAGS= -D WARNINGS_AS_ERRORS= -P packaging.cmake
 #   install       what is built in BUILD, installed and found with find_package
 #   subdirectory  sinew's sources inside the consumer's project
-#   shared        sinew as a shared library, installed and found; and the symbols it exports
 cmake_minimum_required(VERSION 3.25)
 set(prefix ${WORK}/prefix)
 # Where sources of sinew are compiled once more: beside BUILD, since ccache takes paths relative to the folder that it runs
@@ -28,10 +27,6 @@ file(REMOVE_RECURSE ${prefix})
 
 if(MODE STREQUAL "install")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
-elseif(MODE STREQUAL "shared")
-  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${again} ${sinew_flags} -D BUILD_SHARED_LIBS=ON -D SINEW_BUILD_COMMAND=OFF)
-  run(${CMAKE_COMMAND} --build ${again} --parallel ${JOBS})
-  run(${CMAKE_COMMAND} --install ${again} --prefix ${prefix})
 endif()
 
 file(REMOVE ${consumer_build}/CMakeCache.txt)
@@ -92,44 +87,26 @@ if(MODE STREQUAL "install" AND EXISTS ${prefix}/bin/sinew)
   endforeach()
 endif()
 
-if(NOT MODE STREQUAL "shared")
-  execute_process(COMMAND nm --dynamic --defined-only ${consumer_build}/libconsumer_plugin.so
-                  OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-  if(NOT symbols MATCHES "consumer_version" OR symbols MATCHES "5sinew")
-    message(FATAL_ERROR "a plugin that links the static library exports:\n${symbols}")
-  endif()
+execute_process(COMMAND nm --dynamic --defined-only ${consumer_build}/libconsumer_plugin.so
+                OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+if(NOT symbols MATCHES "consumer_version" OR symbols MATCHES "5sinew")
+  message(FATAL_ERROR "a plugin that links the static library exports:\n${symbols}")
 endif()
 
-if(MODE STREQUAL "shared")
-  file(GLOB_RECURSE library ${prefix}/*/libsinew.so)
-  execute_process(COMMAND nm --dynamic --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX MATCHALL "[^ \n]+\n" symbols "${symbols}")
-  set(kind "^_Z(T[ISTV]|GV|Z)*N?K?")  # functions, type information, tables, statics of functions
-  file(STRINGS ${SOURCE}/include/sinew.h declared REGEX "^SINEW_C_API .*sinew_[a-z_]+\\(")
-  list(TRANSFORM declared REPLACE "^SINEW_C_API .*(sinew_[a-z_]+)\\(.*" "\\1")
-  set(own 0)
-  set(foreign "")
-  set(of_c "")
-  foreach(symbol IN LISTS symbols)
-    string(STRIP ${symbol} symbol)
-    if(symbol MATCHES "^sinew_")
-      list(APPEND of_c ${symbol})
-    elseif(symbol MATCHES "${kind}5sinew")
-      math(EXPR own "${own} + 1")
-    else()
-      string(APPEND foreign "  ${symbol}\n")
-    endif()
-  endforeach()
-  if(foreign OR own EQUAL 0)
-    message(FATAL_ERROR "libsinew.so exports ${own} symbols of sinew, and these that it should not:\n${foreign}")
+file(GLOB_RECURSE library ${prefix}/*/libsinew.so)
+if(library)
+  run(${consumer_build}/consumer_shared)
+  run(${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/exports.py ${library} ${prefix}/include)
+  # A program in C needs a compiler of C and -lsinew.
+  cmake_path(GET library PARENT_PATH folder)
+  run(cc -std=c11 -Wall -Wextra -Wpedantic -Werror -I${prefix}/include ${CMAKE_CURRENT_LIST_DIR}/consumer/program.c -o ${consumer_build}/program
+      -L${folder} -lsinew -Wl,-rpath,${folder})
+  run(${consumer_build}/program)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${consumer} -B ${consumer_build}-of-both ${flags} -D CMAKE_PREFIX_PATH=${prefix} -D CONSUMER_OF_BOTH=ON
+                  RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
+  if(result EQUAL 0 OR NOT said MATCHES "SINEW_LIBRARY")
+    message(FATAL_ERROR "a program that links both libraries is not refused: ${said}")
   endif()
-  list(SORT of_c)
-  list(SORT declared)
-  if(NOT of_c STREQUAL declared)
-    message(FATAL_ERROR "sinew.h declares ${declared}, libsinew.so exports ${of_c}")
-  endif()
-  # Of C++ what an installed header declares; of other headers what they mark for the libraries beside this one.
-  execute_process(COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/exports.py ${library} ${prefix}/include ${SOURCE}/src
-                  COMMAND_ERROR_IS_FATAL ANY)
-  message(STATUS "libsinew.so exports ${own} symbols of sinew and no others")
+elseif(MODE STREQUAL "install")
+  message(FATAL_ERROR "libsinew.so is not installed")
 endif()

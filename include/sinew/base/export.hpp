@@ -8,8 +8,8 @@
 #define SINEW_VERSION_STRING "0.1.0"  ///< of these headers
 
 /// @def SINEW_API
-/// Marks what a shared library exports.
-#if defined(SINEW_SHARED) && defined(__GNUC__)
+/// Marks what libsinew.so exports: all that installed headers declare, and nothing else.
+#ifdef __GNUC__
 #define SINEW_API __attribute__((visibility("default")))
 #else
 #define SINEW_API

@@ -53,9 +53,8 @@ bool fits(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
 /// @param curvature of each leg [1/m], near it: of a leg without a strut its sign is enough
 /// @return `unreachable` where a leg has no such shape near it
 template <class Space>
-SINEW_API Report unloaded_equilibrium(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
-                                      std::span<const double> curvature, bool holds_lengths,
-                                      ChainState<Space>& state);
+Report unloaded_equilibrium(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
+                            std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state);
 
 struct ChainOptions {
   int max_iterations = 2000;  ///< Newton steps of the whole path
@@ -74,22 +73,21 @@ struct ChainOptions {
 /// that asks joints for half a turn. `slack` (all fields are
 /// valid) where a tendon would have to push.
 template <class Space>
-SINEW_API Report equilibrium(const ChainLegs<Space>& robot, std::span<const TendonConstraint> hold,
-                             const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
-                             const ChainOptions& options = {});
+Report equilibrium(const ChainLegs<Space>& robot, std::span<const TendonConstraint> hold,
+                   const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
+                   const ChainOptions& options = {});
 
 /// Tensions of the inner tendons that hold the platform there under this wrench, from the equilibrium in
 /// `state`, of that pose; what its motors hold, tensions or lengths, is what they then have. Of more legs
 /// than freedoms the tensions are those nearest to the ones in `state`, in least squares. `unreachable` where
 /// legs are fewer, `stalled` where the path to the wrench is lost.
 template <class Space>
-SINEW_API Report inverse_statics(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
-                                 ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
+Report inverse_statics(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
+                       ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
 
 /// What the motor at a base exerts on the first link, counter-clockwise [N m]: the energy's derivative by the
 /// motor's angle, whatever else is held. Theory: docs/theory/chain_equilibrium.md
-SINEW_API double motor_torque(const ChainLeg<Planar>& leg, const ChainLegState& state,
-                              const SE2<double>& platform);
+double motor_torque(const ChainLeg<Planar>& leg, const ChainLegState& state, const SE2<double>& platform);
 
 /// What a growing load comes to.
 enum class ChainLoadEnd {
@@ -100,7 +98,7 @@ enum class ChainLoadEnd {
   iterations,   ///< the bound on them was met
   stability,    ///< the path goes on, but under this moment does not hold by itself: none takes its place
 };
-SINEW_API std::string_view to_string(ChainLoadEnd end) noexcept;
+std::string_view to_string(ChainLoadEnd end) noexcept;
 
 struct ChainLoadPath {
   ChainLoadEnd end = ChainLoadEnd::limit;
@@ -111,29 +109,29 @@ struct ChainLoadPath {
 /// Adds `direction` times a growing factor to the wrench until it is `limit`, or something else ends it, by
 /// arc length: that load is exact to rounding. `state` is the last equilibrium before. Allocates.
 template <class Space>
-SINEW_API ChainLoadPath follow_load(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& direction,
-                                    double limit, ChainState<Space>& state, ChainWork& work,
-                                    const ChainOptions& options = {});
+ChainLoadPath follow_load(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& direction,
+                          double limit, ChainState<Space>& state, ChainWork& work,
+                          const ChainOptions& options = {});
 
 /// Smallest eigenvalue of the energy's Hessian in pose and angles along what the closures, and lengths that
 /// are held, leave free: > 0 where the equilibrium holds by itself, infinite where they leave nothing.
 /// Allocates.
 template <class Space>
-SINEW_API double smallest_hessian_eigenvalue(const ChainLegs<Space>& robot, const ChainState<Space>& state);
+double smallest_hessian_eigenvalue(const ChainLegs<Space>& robot, const ChainState<Space>& state);
 
 /// ∂(wrench)/∂(pose) and ∂(pose)/∂(wrench) with everything held: twist order. Under a moment in space not
 /// symmetric.
 template <class Space>
-SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>& robot,
-                                                        const ChainState<Space>& state, ChainWork& work);
+Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                              ChainWork& work);
 template <class Space>
-SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>& robot,
-                                                         const ChainState<Space>& state, ChainWork& work);
+Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                               ChainWork& work);
 
 /// Springs, tendons that are held at tensions, and the wrench [J]: Σ ½ k θ² + Σ T l − W·x. Rotations in space
 /// bear no potential of a moment: NaN where there is one.
 template <class Space>
-SINEW_API double potential(const ChainLegs<Space>& robot, const ChainState<Space>& state);
+double potential(const ChainLegs<Space>& robot, const ChainState<Space>& state);
 
 /// Rows of the velocity equations of chains, J·t = K·θ̇ as [TDPCR] has them: row i of J is ρ or the strut's
 /// length times the leg's line, row i of K has columns of leg i alone.
@@ -150,23 +148,22 @@ struct ChainRates {
 };
 /// @implements TDPCR (34), (36)-(38), (60)-(62)
 template <class Space>
-SINEW_API ChainRates<Space> chain_rates(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
-                                        std::span<const ChainLegState> legs);
+ChainRates<Space> chain_rates(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
+                              std::span<const ChainLegState> legs);
 
 /// The paper's linear model of a load: ∂(pose)/∂(wrench) = U k⁻¹ Uᵀ with U = J⁻¹ K of the unloaded robot, of
 /// more legs than freedoms the inverse of the sum of their stiffnesses. It leaves out the geometric
 /// stiffness; where lengths are held, motions that keep them. @implements TDPCR (44), (45), (46)
 template <class Space>
-SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>& robot,
-                                                                const ChainState<Space>& state);
+Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>& robot,
+                                                      const ChainState<Space>& state);
 
 /// How much more energy the unloaded robot's chains would store under this wrench if they bent evenly [J], to
 /// first order in the chord forces: what constant curvature misses. Of springs alone: low under M1, whose
 /// tendons soften them. Theory: docs/theory/chain_equilibrium.md
 template <class Space>
-SINEW_API double constant_curvature_energy_gap(const ChainLegs<Space>& robot,
-                                               const ChainState<Space>& unloaded,
-                                               const Vec<double, Space::dof>& wrench);
+double constant_curvature_energy_gap(const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
+                                     const Vec<double, Space::dof>& wrench);
 
 /// Force and moment at a link's tip that joint torques tell of, in base axes, by least squares of τ = J_pᵀ
 /// F, whose last row is what the tip turns by (of M0w each joint's weight); `closure_error` of the torques,
@@ -176,12 +173,12 @@ struct TipWrench {
   double moment;       ///< [N m]
   double closure_error;
 };
-SINEW_API TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
-                               std::span<const double> angles);
+TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
+                     std::span<const double> angles);
 
 /// The same of a leg whose springs are bent so, in base axes: force, then moment. Allocates.
 template <class Space>
-SINEW_API Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>& leg, std::span<const double> angles,
-                                             const typename Space::template Frame<double>& platform);
+Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>& leg, std::span<const double> angles,
+                                   const typename Space::template Frame<double>& platform);
 
 }  // namespace sinew::inline v1

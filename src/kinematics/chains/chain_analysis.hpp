@@ -18,8 +18,8 @@ struct ChainStability {
 };
 /// Twists have length 1, turns times the longest chain. Allocates.
 template <class Space>
-SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
-                                                ChainWork& work);
+ChainStability<Space> check_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                      ChainWork& work);
 
 /// The same of a solved equilibrium; its report becomes `unstable` where it does not hold by itself.
 template <class Space>
@@ -38,8 +38,7 @@ struct ChainMargins {
   double strain;  ///< largest of bending, of any backbone: κ d/2; NaN where no diameter is known
 };
 template <class Space>
-SINEW_API ChainMargins margins(const ChainLegs<Space>& robot, const ChainState<Space>& state,
-                               ChainWork& work);
+ChainMargins margins(const ChainLegs<Space>& robot, const ChainState<Space>& state, ChainWork& work);
 
 /// A column for each of what the state holds, leg by leg: the angle of the base motor where there is one,
 /// then the length of a tendon, or the tensions of both.
@@ -47,11 +46,11 @@ template <class Space>
 using ByInputs = Eigen::Matrix<double, Space::dof, Eigen::Dynamic>;
 /// ∂(wrench needed)/∂(inputs), the platform resting. Allocates.
 template <class Space>
-SINEW_API ByInputs<Space> input_wrench_jacobian(const ChainLegs<Space>& robot, const ChainState<Space>& state,
-                                                ChainWork& work);
+ByInputs<Space> input_wrench_jacobian(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                      ChainWork& work);
 /// ∂(pose)/∂(inputs) at fixed wrench, twist order. Allocates.
 template <class Space>
-SINEW_API ByInputs<Space> input_sensitivity(const ChainLegs<Space>& robot, const ChainState<Space>& state,
-                                            ChainWork& work);
+ByInputs<Space> input_sensitivity(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                  ChainWork& work);
 
 }  // namespace sinew::inline v1

@@ -43,8 +43,7 @@ struct ChainCurve {
 /// does not yield, where what is asked for is not finite, has no points or a range without 0, holds other
 /// tendons than the state or lengths that no joints allow, or is what it begins with. Allocates.
 template <class Space>
-SINEW_API std::vector<ChainCurve<Space>> chain_curves(const ChainLegs<Space>& robot,
-                                                      const ChainState<Space>& state,
-                                                      const ChainCurveOptions<Space>& how, ChainWork& work);
+std::vector<ChainCurve<Space>> chain_curves(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                            const ChainCurveOptions<Space>& how, ChainWork& work);
 
 }  // namespace sinew::inline v1

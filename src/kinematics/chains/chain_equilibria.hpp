@@ -25,10 +25,10 @@ struct FoundChains {
 /// be all. Every start is let go without load, which is then added, and with it. Ends early when it is
 /// stopped. Allocates.
 template <class Space>
-SINEW_API std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
-                                                           std::span<const ChainStart<Space>> starts,
-                                                           std::span<const TendonConstraint> hold,
-                                                           const Vec<double, Space::dof>& wrench,
-                                                           ChainWork& work, const ChainOptions& options = {});
+std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
+                                                 std::span<const ChainStart<Space>> starts,
+                                                 std::span<const TendonConstraint> hold,
+                                                 const Vec<double, Space::dof>& wrench, ChainWork& work,
+                                                 const ChainOptions& options = {});
 
 }  // namespace sinew::inline v1

@@ -28,8 +28,8 @@ struct ChainMotionOptions {
 /// leg is straight; `unreachable` where the flow runs away, does not reach the pose, or passes through
 /// straight. Allocates.
 template <class Space>
-SINEW_API Report follow_least_norm(ChainLegs<Space>& robot, const typename Space::Pose& from,
-                                   const typename Space::Pose& to, std::span<ChainLegState> legs,
-                                   const ChainMotionOptions& options = {});
+Report follow_least_norm(ChainLegs<Space>& robot, const typename Space::Pose& from,
+                         const typename Space::Pose& to, std::span<ChainLegState> legs,
+                         const ChainMotionOptions& options = {});
 
 }  // namespace sinew::inline v1

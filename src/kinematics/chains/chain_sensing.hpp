@@ -25,8 +25,7 @@ struct SensedLoad {
 /// near that of `state` makes them; `slack` as of equilibria.
 /// @param state an equilibrium of these lengths, where the search begins
 template <class Space>
-SINEW_API SensedLoad<Space> sense_wrench(const ChainLegs<Space>& robot,
-                                         std::span<const MeasuredTension> measured, ChainState<Space>& state,
-                                         ChainWork& work, const ChainOptions& options = {});
+SensedLoad<Space> sense_wrench(const ChainLegs<Space>& robot, std::span<const MeasuredTension> measured,
+                               ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
 
 }  // namespace sinew::inline v1

@@ -127,9 +127,9 @@ std::vector<ChainCurve<Space>> chain_curves(const ChainLegs<Space>& robot, const
   return CurveWriter<Problem>(tracer, range, work.stop).run();
 }
 
-#define SINEW_OF(Space)                                           \
-  template SINEW_API std::vector<ChainCurve<Space>> chain_curves( \
-      const ChainLegs<Space>&, const ChainState<Space>&, const ChainCurveOptions<Space>&, ChainWork&);
+#define SINEW_OF(Space)                                                                                   \
+  template std::vector<ChainCurve<Space>> chain_curves(const ChainLegs<Space>&, const ChainState<Space>&, \
+                                                       const ChainCurveOptions<Space>&, ChainWork&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

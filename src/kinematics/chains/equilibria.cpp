@@ -119,7 +119,7 @@ std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
 }
 
 #define SINEW_OF(Space)                                                                               \
-  template SINEW_API std::vector<FoundChains<Space>> chain_equilibria(                                \
+  template std::vector<FoundChains<Space>> chain_equilibria(                                          \
       const ChainLegs<Space>&, std::span<const ChainStart<Space>>, std::span<const TendonConstraint>, \
       const Vec<double, Space::dof>&, ChainWork&, const ChainOptions&);
 SINEW_OF(Planar)

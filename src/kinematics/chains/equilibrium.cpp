@@ -258,18 +258,18 @@ Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>& robot, co
   return C;
 }
 
-#define SINEW_OF(Space)                                                                                   \
-  template SINEW_API Report unloaded_equilibrium(const ChainLegs<Space>&, const Space::Pose&,             \
-                                                 std::span<const double>, bool, ChainState<Space>&);      \
-  template SINEW_API Report equilibrium(const ChainLegs<Space>&, std::span<const TendonConstraint>,       \
-                                        const Vec<double, Space::dof>&, ChainState<Space>&, ChainWork&,   \
-                                        const ChainOptions&);                                             \
-  template SINEW_API Report inverse_statics(const ChainLegs<Space>&, const Vec<double, Space::dof>&,      \
-                                            ChainState<Space>&, ChainWork&, const ChainOptions&);         \
-  template SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>&,               \
-                                                                   const ChainState<Space>&, ChainWork&); \
-  template SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>&,              \
-                                                                    const ChainState<Space>&, ChainWork&);
+#define SINEW_OF(Space)                                                                                      \
+  template Report unloaded_equilibrium(const ChainLegs<Space>&, const Space::Pose&, std::span<const double>, \
+                                       bool, ChainState<Space>&);                                            \
+  template Report equilibrium(const ChainLegs<Space>&, std::span<const TendonConstraint>,                    \
+                              const Vec<double, Space::dof>&, ChainState<Space>&, ChainWork&,                \
+                              const ChainOptions&);                                                          \
+  template Report inverse_statics(const ChainLegs<Space>&, const Vec<double, Space::dof>&,                   \
+                                  ChainState<Space>&, ChainWork&, const ChainOptions&);                      \
+  template Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>&, const ChainState<Space>&,  \
+                                                         ChainWork&);                                        \
+  template Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>&, const ChainState<Space>&, \
+                                                          ChainWork&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

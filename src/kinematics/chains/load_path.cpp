@@ -58,9 +58,9 @@ ChainLoadPath follow_load(const ChainLegs<Space>& robot, const Vec<double, Space
   return path;
 }
 
-#define SINEW_OF(Space)                                                                                 \
-  template SINEW_API ChainLoadPath follow_load(const ChainLegs<Space>&, const Vec<double, Space::dof>&, \
-                                               double, ChainState<Space>&, ChainWork&, const ChainOptions&);
+#define SINEW_OF(Space)                                                                               \
+  template ChainLoadPath follow_load(const ChainLegs<Space>&, const Vec<double, Space::dof>&, double, \
+                                     ChainState<Space>&, ChainWork&, const ChainOptions&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

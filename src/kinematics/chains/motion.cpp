@@ -200,9 +200,9 @@ Report follow_least_norm(ChainLegs<Space>& robot, const typename Space::Pose& fr
   return report;
 }
 
-#define SINEW_OF(Space)                                                                                  \
-  template SINEW_API Report follow_least_norm(ChainLegs<Space>&, const Space::Pose&, const Space::Pose&, \
-                                              std::span<ChainLegState>, const ChainMotionOptions&);
+#define SINEW_OF(Space)                                                                        \
+  template Report follow_least_norm(ChainLegs<Space>&, const Space::Pose&, const Space::Pose&, \
+                                    std::span<ChainLegState>, const ChainMotionOptions&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

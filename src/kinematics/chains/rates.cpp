@@ -169,15 +169,15 @@ Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>& leg, std::span<const d
   return wrench;
 }
 
-#define SINEW_OF(Space)                                                                                      \
-  template SINEW_API ChainRates<Space> chain_rates(const ChainLegs<Space>&, const Space::Pose&,              \
-                                                   std::span<const ChainLegState>);                          \
-  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>&,          \
-                                                                           const ChainState<Space>&);        \
-  template SINEW_API Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>&, std::span<const double>,     \
-                                                        const Space::Frame<double>&);                        \
-  template SINEW_API double constant_curvature_energy_gap(const ChainLegs<Space>&, const ChainState<Space>&, \
-                                                          const Vec<double, Space::dof>&);
+#define SINEW_OF(Space)                                                                            \
+  template ChainRates<Space> chain_rates(const ChainLegs<Space>&, const Space::Pose&,              \
+                                         std::span<const ChainLegState>);                          \
+  template Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>&,          \
+                                                                 const ChainState<Space>&);        \
+  template Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>&, std::span<const double>,     \
+                                              const Space::Frame<double>&);                        \
+  template double constant_curvature_energy_gap(const ChainLegs<Space>&, const ChainState<Space>&, \
+                                                const Vec<double, Space::dof>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

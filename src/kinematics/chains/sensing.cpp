@@ -79,10 +79,9 @@ SensedLoad<Space> sense_wrench(const ChainLegs<Space>& robot, std::span<const Me
   return sensed;
 }
 
-#define SINEW_OF(Space)                                                                                   \
-  template SINEW_API SensedLoad<Space> sense_wrench(const ChainLegs<Space>&,                              \
-                                                    std::span<const MeasuredTension>, ChainState<Space>&, \
-                                                    ChainWork&, const ChainOptions&);
+#define SINEW_OF(Space)                                                                              \
+  template SensedLoad<Space> sense_wrench(const ChainLegs<Space>&, std::span<const MeasuredTension>, \
+                                          ChainState<Space>&, ChainWork&, const ChainOptions&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

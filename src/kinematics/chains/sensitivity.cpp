@@ -58,11 +58,10 @@ ByInputs<Space> input_sensitivity(const ChainLegs<Space>& robot, const ChainStat
   return all;
 }
 
-#define SINEW_OF(Space)                                                                                   \
-  template SINEW_API ByInputs<Space> input_wrench_jacobian(const ChainLegs<Space>&,                       \
-                                                           const ChainState<Space>&, ChainWork&);         \
-  template SINEW_API ByInputs<Space> input_sensitivity(const ChainLegs<Space>&, const ChainState<Space>&, \
-                                                       ChainWork&);
+#define SINEW_OF(Space)                                                                             \
+  template ByInputs<Space> input_wrench_jacobian(const ChainLegs<Space>&, const ChainState<Space>&, \
+                                                 ChainWork&);                                       \
+  template ByInputs<Space> input_sensitivity(const ChainLegs<Space>&, const ChainState<Space>&, ChainWork&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

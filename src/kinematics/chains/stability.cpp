@@ -179,12 +179,12 @@ double potential(const ChainLegs<Space>& robot, const ChainState<Space>& state) 
   return sum;
 }
 
-#define SINEW_OF(Space)                                                                                     \
-  template SINEW_API double smallest_hessian_eigenvalue(const ChainLegs<Space>&, const ChainState<Space>&); \
-  template SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>&,                         \
-                                                           const ChainState<Space>&, ChainWork&);           \
-  template SINEW_API ChainMargins margins(const ChainLegs<Space>&, const ChainState<Space>&, ChainWork&);   \
-  template SINEW_API double potential(const ChainLegs<Space>&, const ChainState<Space>&);
+#define SINEW_OF(Space)                                                                             \
+  template double smallest_hessian_eigenvalue(const ChainLegs<Space>&, const ChainState<Space>&);   \
+  template ChainStability<Space> check_stability(const ChainLegs<Space>&, const ChainState<Space>&, \
+                                                 ChainWork&);                                       \
+  template ChainMargins margins(const ChainLegs<Space>&, const ChainState<Space>&, ChainWork&);     \
+  template double potential(const ChainLegs<Space>&, const ChainState<Space>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

@@ -28,10 +28,10 @@ struct HingedModes {
 };
 
 /// Whether these are three hinged legs.
-SINEW_API bool are_hinged(std::span<const PlatformConstraint<3>> legs);
+bool are_hinged(std::span<const PlatformConstraint<3>> legs);
 
 /// A pose counts if it closes the legs to 1e-12 of their size; poses nearer than 1e-6 of it count as one. No
 /// heap, no throw, bounded work.
-SINEW_API HingedModes hinged_modes(std::span<const PlatformConstraint<3>> legs);
+HingedModes hinged_modes(std::span<const PlatformConstraint<3>> legs);
 
 }  // namespace sinew::inline v1

@@ -35,6 +35,6 @@ struct PlanarModes {
 /// (extra legs, pinned legs) to 1e-9, in the least squares sense. Two poses are one if the pose half way
 /// closes the legs as well as they do (1e-14). A leg shorter than 1e-14 of the size is pinned. No heap, no
 /// throw, bounded work.
-SINEW_API PlanarModes planar_modes(std::span<const PlatformConstraint<2>> legs);
+PlanarModes planar_modes(std::span<const PlatformConstraint<2>> legs);
 
 }  // namespace sinew::inline v1

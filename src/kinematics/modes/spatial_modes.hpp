@@ -38,7 +38,7 @@ struct SpatialModes {
 
 /// Legs beyond the sixth only choose among the poses of six. Deterministic, bounded work, no threads; the
 /// first call in a process also finds the 40 solutions that all searches start from.
-SINEW_API SpatialModes spatial_modes(std::span<const PlatformConstraint<3>> legs,
-                                     const SpatialModesOptions& options = {});
+SpatialModes spatial_modes(std::span<const PlatformConstraint<3>> legs,
+                           const SpatialModesOptions& options = {});
 
 }  // namespace sinew::inline v1

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <vector>
 
-#include "sinew/base/export.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 
@@ -51,9 +50,9 @@ struct ThreeArcSolutions {
 };
 
 /// Deterministic, no threads, bounded work: at most 32 solutions, 400 000 pairs of pieces and 40 MB.
-SINEW_API ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip, StopToken stop = {});
+ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip, StopToken stop = {});
 
 /// Pose of the tip under these bends.
-SINEW_API SE3<double> tip_pose(const ThreeArcs& robot, const ThreeBends& bends);
+SE3<double> tip_pose(const ThreeArcs& robot, const ThreeBends& bends);
 
 }  // namespace sinew::inline v1

@@ -15,12 +15,11 @@
 #include <vector>
 
 #include "math/linalg.hpp"
-#include "sinew/base/export.hpp"
 #include "sinew/io/node.hpp"
 
 namespace sinew::inline v1 {
 
-class SINEW_API Value {
+class Value {
  public:
   /// A name within a map: a literal, which outlives every answer.
   class Key {

@@ -11,7 +11,7 @@
 
 namespace sinew::inline v1 {
 
-class SINEW_API AnswerPath {
+class AnswerPath {
  public:
   explicit AnswerPath(std::string_view path);
 
@@ -30,7 +30,7 @@ class SINEW_API AnswerPath {
 
 /// The SI unit of a number of an answer, as far as its place tells; empty for plain numbers, and
 /// where numbers of its field have several.
-SINEW_API std::string_view unit_of_answer(std::string_view path);
+std::string_view unit_of_answer(std::string_view path);
 
 /// A name for what is there, where nobody gave one: `legs_0_force`.
 inline std::string name_of_place(std::string_view path) {

@@ -21,13 +21,13 @@ struct Placeholder {
 std::optional<Placeholder> placeholder(Node& node, std::span<const std::string> names);
 
 /// All of a tree; they point into it, and its shape must stay.
-SINEW_API std::vector<Placeholder> placeholders(Node& query, std::span<const std::string> names);
+std::vector<Placeholder> placeholders(Node& query, std::span<const std::string> names);
 
 /// Makes the node this number ...
-SINEW_API void put(Node& node, double value);
+void put(Node& node, double value);
 /// ... or the word that it counts, from 0; the number where there are no words ...
-SINEW_API void put(Node& node, double value, std::span<const std::string> words);
+void put(Node& node, double value, std::span<const std::string> words);
 /// ... or a text with its unit, which the query's reader then checks.
-SINEW_API void put(Node& node, double value, std::string_view unit);
+void put(Node& node, double value, std::string_view unit);
 
 }  // namespace sinew::inline v1

@@ -28,7 +28,7 @@ struct RowNumber {
   bool is_taken(double number) const { return std::isfinite(number) && range.contains(number); }
 };
 
-class SINEW_API RowPlaces {
+class RowPlaces {
  public:
   /// @param question must outlive it
   explicit RowPlaces(const BatchQuestion& question);

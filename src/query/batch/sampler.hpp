@@ -27,7 +27,7 @@ inline constexpr SampleStatus not_supported = 11;  ///< the robot, or its model,
 inline constexpr SampleStatus not_computed = 254;  ///< its block was stopped; in no file
 inline constexpr SampleStatus converged = static_cast<SampleStatus>(Status::converged);
 inline constexpr SampleStatus unstable = static_cast<SampleStatus>(Status::unstable);
-SINEW_API std::string_view name_of(SampleStatus status);
+std::string_view name_of(SampleStatus status);
 inline constexpr int sample_statuses = 12;
 
 /// Of a solver. Numbers above the first eight mean other things in files of results than in a Report.
@@ -88,10 +88,10 @@ struct SamplerKind {
 };
 
 /// Samples of a chunk, about: so many that there are this many chunks, within the bounds.
-SINEW_API std::size_t chunk_size(const SamplerKind& kind, std::size_t samples, std::size_t chunks = 256);
+std::size_t chunk_size(const SamplerKind& kind, std::size_t samples, std::size_t chunks = 256);
 
 /// Each sample by its own query: any robot, any query, any output.
-SINEW_API SamplerKind query_sampler(const BatchQuestion& question);
+SamplerKind query_sampler(const BatchQuestion& question);
 
 /// @name Plans
 /// Of a question that its mechanics read: what computes its rows without asking each. Empty `make` where the
@@ -106,6 +106,6 @@ SamplerKind plan_arms(Context& context,
 /// @}
 
 /// The quickest there is.
-SINEW_API SamplerKind choose_sampler(const BatchQuestion& question);
+SamplerKind choose_sampler(const BatchQuestion& question);
 
 }  // namespace sinew::inline v1

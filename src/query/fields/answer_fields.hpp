@@ -4,8 +4,6 @@
 #include <span>
 #include <string_view>
 
-#include "sinew/base/export.hpp"
-
 namespace sinew::inline v1 {
 
 /// How many numbers a field of an answer has, in terms of the robot.
@@ -41,8 +39,8 @@ struct AnswerField {
 
 /// Of all questions but `describe`, which says a file again, and `identify`, which has its own page; of these
 /// what would be taken for a field of another question.
-SINEW_API std::span<const AnswerField> answer_fields();
+std::span<const AnswerField> answer_fields();
 /// By a place such as `legs[0].tendon_lengths[1]`; null where nothing is known of it.
-SINEW_API const AnswerField* find_answer_field(std::string_view place);
+const AnswerField* find_answer_field(std::string_view place);
 
 }  // namespace sinew::inline v1

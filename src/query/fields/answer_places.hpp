@@ -10,7 +10,6 @@
 
 #include "query/kinds.hpp"
 #include "query/wants.hpp"
-#include "sinew/base/export.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/robot/robot.hpp"
 
@@ -43,10 +42,10 @@ struct AnswerWord {
 };
 
 /// Whether a question has the field that a word goes with, and it is neither null nor false.
-SINEW_API bool has_what_it_goes_with(const AnswerWord& word, const Node& query);
+bool has_what_it_goes_with(const AnswerWord& word, const Node& query);
 
 /// The answers of a robot to one kind of question.
-class SINEW_API AnswerPlaces {
+class AnswerPlaces {
  public:
   /// @param robot by the model that is asked for
   AnswerPlaces(const Robot& robot, Ask ask);

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "query/kinds.hpp"
-#include "sinew/base/export.hpp"
 #include "sinew/units.hpp"
 
 namespace sinew::inline v1 {
@@ -62,8 +61,8 @@ struct Field {
 };
 
 /// In the order of the protocol page.
-SINEW_API std::span<const Field> question_fields();
+std::span<const Field> question_fields();
 /// Null where there is none of this name.
-SINEW_API const Field* find_field(std::string_view name);
+const Field* find_field(std::string_view name);
 
 }  // namespace sinew::inline v1

@@ -12,7 +12,6 @@
 
 #include "query/answer/value.hpp"
 #include "sinew/analysis/identify.hpp"
-#include "sinew/base/export.hpp"
 
 namespace sinew::inline v1 {
 
@@ -51,38 +50,37 @@ struct Identification {
   double seconds = 0, held_out_seconds = 0;
 };
 
-SINEW_API std::string_view word_of(ArmModel model);
+std::string_view word_of(ArmModel model);
 /// Of `word_of`, in the order of help.
-SINEW_API std::span<const std::pair<std::string_view, ArmModel>> arm_model_words();
+std::span<const std::pair<std::string_view, ArmModel>> arm_model_words();
 
 /// In how many parts these rows can be held out in turn: as many as asked, or as there are blocks; 0: none.
-SINEW_API int possible_folds(const MeasuredRows& rows, int asked);
-SINEW_API std::size_t block_count(const MeasuredRows& rows);
+int possible_folds(const MeasuredRows& rows, int asked);
+std::size_t block_count(const MeasuredRows& rows);
 
 /// Codes: those of `fit_parameters` and `identify`.
-SINEW_API Expected<Identification> run_identification(MeasuredArm arm, MeasuredRows rows,
-                                                      const IdentificationRequest& request);
+Expected<Identification> run_identification(MeasuredArm arm, MeasuredRows rows,
+                                            const IdentificationRequest& request);
 
 /// `counts positive where tendons are paid out, ...`; empty where they are as given.
-SINEW_API std::string words_of(const TendonMap& map);
+std::string words_of(const TendonMap& map);
 /// Whether rows agree clearly better with another map than as they are given.
-SINEW_API bool is_clear(const TendonMap& map);
+bool is_clear(const TendonMap& map);
 /// What was computed and is likely not meant, a sentence each.
-SINEW_API std::vector<std::string> remarks_of(const MeasuredArm& arm, const MeasuredRows& rows,
-                                              std::size_t parameters);
+std::vector<std::string> remarks_of(const MeasuredArm& arm, const MeasuredRows& rows, std::size_t parameters);
 
 /// Whether the arm stands at some row at all.
-SINEW_API bool is_worth_keeping(const Identification& done);
+bool is_worth_keeping(const Identification& done);
 /// Why it is no complete fit; empty where it is one.
-SINEW_API std::string why_incomplete(const Identification& done);
+std::string why_incomplete(const Identification& done);
 /// A combination, its largest parts first, the first of them positive: `0.8 bending - 0.6 compliance`.
-SINEW_API std::string combination(const FlatDirection& flat, const std::vector<FitParameter>& parameters);
+std::string combination(const FlatDirection& flat, const std::vector<FitParameter>& parameters);
 
 /// The arm's file as text, with comments that say whence it is.
 /// @param rows_name where the rows are from
-SINEW_API Expected<std::string> fitted_file(const Identification& done, std::string_view rows_name);
+Expected<std::string> fitted_file(const Identification& done, std::string_view rows_name);
 
 /// The answer, without `query`, `robot`, rows and file.
-SINEW_API void put_identification(const Identification& done, Value& answer);
+void put_identification(const Identification& done, Value& answer);
 
 }  // namespace sinew::inline v1
