@@ -14,8 +14,8 @@
 #include <random>
 
 #include "instruction_sets.hpp"
-#include "io/arm_file.hpp"
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
+#include "io/robots/arm_file.hpp"
 #include "report.hpp"
 #include "sinew/batch.hpp"
 #include "sinew/io/robot_file.hpp"

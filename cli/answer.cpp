@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "io/quantity.hpp"
-#include "io/visible.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/visible.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 #include "waiting.hpp"

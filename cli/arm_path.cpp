@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/arm_file.hpp"
+#include "io/robots/arm_file.hpp"
 #include "option_reader.hpp"
 #include "show.hpp"
 #include "sinew/base/export.hpp"

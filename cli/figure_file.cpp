@@ -6,8 +6,8 @@
 #include <array>
 #include <cctype>
 
-#include "io/quantity.hpp"
-#include "io/visible.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/visible.hpp"
 #include "sinew/io/node.hpp"
 #include "terminal.hpp"
 

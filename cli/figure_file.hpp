@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "verbs.hpp"
 
 namespace sinew::cli {

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "arm_path.hpp"
-#include "io/arm_file.hpp"
-#include "io/parse.hpp"
-#include "io/quantity.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "query/fields/fields.hpp"
 #include "show.hpp"
 #include "sinew/io/table.hpp"

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "io/arm_file.hpp"
-#include "io/parse.hpp"
-#include "io/quantity.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "option_reader.hpp"
 #include "show.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "io/arm_file.hpp"
-#include "io/serial_file.hpp"
-#include "io/visible.hpp"
+#include "io/document/visible.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "request.hpp"
 #include "sinew/io/robot_file.hpp"
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "io/arm_file.hpp"
-#include "io/serial_file.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "request.hpp"
 
 namespace sinew::cli {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "io/arm_file.hpp"
+#include "io/robots/arm_file.hpp"
 #include "show.hpp"
 #include "text_table.hpp"
 

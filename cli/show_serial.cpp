@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/serial_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "show.hpp"
 #include "text_table.hpp"
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/visible.hpp"
+#include "io/document/visible.hpp"
 
 namespace sinew::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/visible.hpp"
+#include "io/document/visible.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {

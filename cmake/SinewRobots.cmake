@@ -38,7 +38,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_
 file(READ ${PROJECT_SOURCE_DIR}/examples/scenes/wall.yaml scene_text)
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/builtin_robots.cpp @ONLY CONTENT
 [[// Generated from robots/*.yaml and examples.
-#include "io/builtin.hpp"
+#include "io/robots/builtin.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::inline v1 {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "io/parse.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/robots/serial_file.hpp"
 #include "queries.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/io/robot_file.hpp"

@@ -7,7 +7,7 @@
 #include <exception>
 #include <utility>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "reply.hpp"
 
 namespace sinew::server {

@@ -1,7 +1,7 @@
 /// @file diagram_figure.hpp
 /// What the tendons of one section leave it free to do, drawn over its two bends.
 #pragma once
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "request.hpp"
 
 namespace sinew::cli {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/figure_text.hpp"
+#include "io/figure/figure_text.hpp"
 #include "sinew/io/table.hpp"
 
 namespace sinew::cli {

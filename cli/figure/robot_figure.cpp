@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "io/arm_file.hpp"
-#include "io/serial_file.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "show.hpp"
 #include "sinew/math/se3.hpp"
 

@@ -1,7 +1,7 @@
 /// @file robot_figure.hpp
 /// The shape of a robot: projections, or a picture in space.
 #pragma once
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "request.hpp"
 
 namespace sinew::cli {

@@ -9,7 +9,7 @@
 
 #include "figure/quantity_name.hpp"
 #include "figure/table_grid.hpp"
-#include "io/contour.hpp"
+#include "io/figure/contour.hpp"
 #include "sinew/io/node.hpp"
 #include "text_table.hpp"
 

@@ -1,7 +1,7 @@
 /// @file table_figure.hpp
 /// Figures of a table of results.
 #pragma once
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/io/table.hpp"
 #include "verbs.hpp"
 

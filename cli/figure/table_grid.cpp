@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "figure/quantity_name.hpp"
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 #include "request.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/node.hpp"

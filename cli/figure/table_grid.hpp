@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/io/table.hpp"
 #include "verbs.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "answer.hpp"
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 #include "query/fields/answer_fields.hpp"
 #include "query/fields/fields.hpp"
 #include "text_table.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "terminal.hpp"

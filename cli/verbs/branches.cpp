@@ -9,8 +9,8 @@
 
 #include "figure/quantity_name.hpp"
 #include "figure_file.hpp"
-#include "io/figure.hpp"
-#include "io/visible.hpp"
+#include "io/document/visible.hpp"
+#include "io/figure/figure.hpp"
 #include "question.hpp"
 #include "sinew/io/table.hpp"
 #include "terminal.hpp"

@@ -8,10 +8,10 @@
 #include <iterator>
 #include <numbers>
 
-#include "io/arm_file.hpp"
-#include "io/parse.hpp"
-#include "io/quantity.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "show.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "terminal.hpp"

@@ -5,12 +5,12 @@
 #include <array>
 #include <filesystem>
 
-#include "io/parse.hpp"
-#include "io/posture_table.hpp"
-#include "io/quantity.hpp"
-#include "io/serial_file.hpp"
-#include "io/trajectory_file.hpp"
-#include "io/visible.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/visible.hpp"
+#include "io/robots/serial_file.hpp"
+#include "io/table/posture_table.hpp"
+#include "io/table/trajectory_file.hpp"
 #include "request.hpp"
 #include "serial_robot.hpp"
 #include "sinew/study/study.hpp"

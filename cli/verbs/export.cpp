@@ -5,9 +5,9 @@
 #include <array>
 #include <filesystem>
 
-#include "io/export.hpp"
-#include "io/visible.hpp"
-#include "io/write_file.hpp"
+#include "io/document/visible.hpp"
+#include "io/export/export.hpp"
+#include "io/file/write_file.hpp"
 #include "serial_robot.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"

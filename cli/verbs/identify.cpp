@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "io/arm_file.hpp"
-#include "io/quantity.hpp"
-#include "io/serial_file.hpp"
-#include "io/visible.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/visible.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "query/identify/identification.hpp"
 #include "request.hpp"
 #include "show_identified.hpp"

@@ -9,9 +9,9 @@
 #include <functional>
 
 #include "figure_file.hpp"
-#include "io/quantity.hpp"
-#include "io/visible.hpp"
-#include "io/write_file.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/visible.hpp"
+#include "io/file/write_file.hpp"
 #include "map_figure.hpp"
 #include "question.hpp"
 #include "sinew/io/robot_file.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 #include <functional>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "request.hpp"
 #include "sinew/analysis/singularity.hpp"
 

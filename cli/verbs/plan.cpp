@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "answer.hpp"
-#include "io/quantity.hpp"
-#include "io/visible.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/visible.hpp"
 #include "plan/compressor.hpp"
 #include "plan/plan_table.hpp"
 #include "request.hpp"

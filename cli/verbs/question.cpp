@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "io/arm_file.hpp"
-#include "io/serial_file.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {

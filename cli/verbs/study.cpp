@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "answer.hpp"
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "io/parse.hpp"
-#include "io/quantity.hpp"
-#include "io/visible.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/visible.hpp"
 #include "progress.hpp"
 #include "request.hpp"
 #include "study/cluster.hpp"

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "arm_path.hpp"
-#include "io/arm_file.hpp"
-#include "io/serial_file.hpp"
-#include "io/visible.hpp"
+#include "io/document/visible.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "question.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/table.hpp"

@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "io/arm_file.hpp"
+#include "io/robots/arm_file.hpp"
 #include "simulator/drives.hpp"
 #include "simulator/panel.hpp"
 #include "simulator/player.hpp"

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "io/arm_file.hpp"
-#include "io/parse.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/robots/arm_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "simulator/faults.hpp"
 #include "simulator/standard_input.hpp"
 #include "simulator/terminal.hpp"

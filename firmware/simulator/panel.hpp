@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "io/arm_file.hpp"
+#include "io/robots/arm_file.hpp"
 #include "simulator/controller.hpp"
 #include "simulator/drives.hpp"
 #include "simulator/simulated_arm.hpp"

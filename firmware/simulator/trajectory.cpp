@@ -1,5 +1,5 @@
 #include "simulator/trajectory.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 
 #include <algorithm>
 #include <charconv>

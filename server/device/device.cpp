@@ -9,8 +9,8 @@
 #include <ctime>
 #include <utility>
 
-#include "io/parse.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/robots/serial_file.hpp"
 #include "server/robots.hpp"
 #include "sinew/io/robot_file.hpp"
 

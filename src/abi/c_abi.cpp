@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "query/progress.hpp"
 #include "sinew/batch.hpp"
 #include "sinew/io/robot_file.hpp"

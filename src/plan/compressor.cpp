@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 #include "plan/draw.hpp"
 
 namespace sinew::inline v1 {

@@ -9,7 +9,7 @@
 #include <map>
 #include <numbers>
 
-#include "io/posture_table.hpp"
+#include "io/table/posture_table.hpp"
 #include "plan/body.hpp"
 
 namespace sinew::inline v1 {

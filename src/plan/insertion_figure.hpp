@@ -3,7 +3,7 @@
 #pragma once
 #include <span>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/plan/insertion.hpp"
 #include "sinew/plan/scene.hpp"
 

@@ -23,7 +23,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/visible.hpp"
+#include "io/document/visible.hpp"
 #include "sinew/plan/scene.hpp"
 
 namespace sinew::inline v1 {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "io/posture_table.hpp"
+#include "io/table/posture_table.hpp"
 
 namespace sinew::inline v1 {
 

@@ -8,11 +8,11 @@
 #include <numbers>
 #include <set>
 
-#include "io/parse.hpp"
-#include "io/quantity.hpp"
-#include "io/read_pose.hpp"
-#include "io/reader.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/reader.hpp"
+#include "io/robots/read_pose.hpp"
+#include "io/robots/serial_file.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::inline v1 {

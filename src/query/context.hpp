@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/answer/value.hpp"
 #include "query/kinds.hpp"
 #include "sinew/analysis/shape.hpp"

@@ -1,5 +1,5 @@
 /// `describe`: what a robot with a platform has.
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 #include "query/context.hpp"
 #include "query/handlers.hpp"
 #include "query/questions.hpp"

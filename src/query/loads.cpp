@@ -1,6 +1,6 @@
 #include "query/loads.hpp"
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

@@ -1,7 +1,7 @@
 /// @file loads.hpp
 /// What questions about loads may say, whatever bears them, and what is answered of many equilibria.
 #pragma once
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "leg/space.hpp"
 #include "query/wants.hpp"
 

@@ -6,10 +6,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "io/actuation.hpp"
-#include "io/parse.hpp"
-#include "io/quantity.hpp"
-#include "io/reader.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/reader.hpp"
+#include "io/robots/actuation.hpp"
 #include "query/batch/row_places.hpp"
 #include "query/batch/sampler.hpp"
 #include "query/fields/fields.hpp"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "io/read_pose.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
+#include "io/robots/read_pose.hpp"
 
 namespace sinew::inline v1 {
 

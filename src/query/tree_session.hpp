@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/context.hpp"
 
 namespace sinew::inline v1 {

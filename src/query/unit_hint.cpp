@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 #include "query/fields/fields.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/robot/arm.hpp"

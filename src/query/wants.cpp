@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/fields/fields.hpp"
 #include "query/handlers.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/io/table.hpp"
 #include "study/reproduce.hpp"
 

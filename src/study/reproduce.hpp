@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/base/error.hpp"
 #include "sinew/io/table.hpp"
 

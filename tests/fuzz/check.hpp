@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "sinew/base/error.hpp"
 
 namespace sinew::fuzz {

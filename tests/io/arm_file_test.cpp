@@ -1,4 +1,4 @@
-#include "io/arm_file.hpp"
+#include "io/robots/arm_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/parse.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/robots/serial_file.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::test {

@@ -1,4 +1,4 @@
-#include "io/contour.hpp"
+#include "io/figure/contour.hpp"
 
 #include <gtest/gtest.h>
 

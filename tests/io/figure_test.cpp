@@ -1,4 +1,4 @@
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

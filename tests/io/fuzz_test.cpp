@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "io/parse.hpp"
-#include "io/reader.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/reader.hpp"
 
 namespace fuzz_test {
 

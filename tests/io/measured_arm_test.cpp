@@ -9,8 +9,8 @@
 #include <limits>
 #include <random>
 
-#include "io/arm_file.hpp"
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
+#include "io/robots/arm_file.hpp"
 #include "measured_arms.hpp"
 #include "sinew/io/robot_file.hpp"
 

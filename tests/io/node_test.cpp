@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 
 namespace node_test {
 

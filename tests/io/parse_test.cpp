@@ -1,4 +1,4 @@
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

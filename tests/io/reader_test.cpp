@@ -1,10 +1,10 @@
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 
 namespace reader_test {
 

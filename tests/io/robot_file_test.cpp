@@ -5,8 +5,8 @@
 
 #include "cpu_time.hpp"
 #include "every_robot.hpp"
-#include "io/parse.hpp"
-#include "io/serial_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/robots/serial_file.hpp"
 #include "paths.hpp"
 #include "sinew/analysis/velocity.hpp"
 

@@ -1,9 +1,9 @@
-#include "io/serial_file.hpp"
+#include "io/robots/serial_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "serial_robots.hpp"
 #include "sinew/io/robot_file.hpp"
 

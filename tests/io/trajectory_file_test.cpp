@@ -1,11 +1,11 @@
-#include "io/trajectory_file.hpp"
+#include "io/table/trajectory_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "io/parse.hpp"
-#include "io/posture_table.hpp"
+#include "io/document/parse.hpp"
+#include "io/table/posture_table.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 

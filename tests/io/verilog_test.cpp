@@ -1,7 +1,7 @@
 // What every exported core has in common. That its bits are the kernel's, tests/fpga tells.
 #include <gtest/gtest.h>
 
-#include "io/export.hpp"
+#include "io/export/export.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew {

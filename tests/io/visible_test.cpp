@@ -1,4 +1,4 @@
-#include "io/visible.hpp"
+#include "io/document/visible.hpp"
 
 #include <gtest/gtest.h>
 

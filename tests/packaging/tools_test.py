@@ -82,7 +82,7 @@ class Layers(Tree):
                               ("cli/main.cpp", '"sinew/sinew.hpp"'),
                               ("include/sinew/sinew.hpp", '"sinew/query/query.hpp"'),
                               ("include/sinew/math/vec.hpp", "<Eigen/Core>"),
-                              ("src/io/robot_file.cpp", "<yaml-cpp/yaml.h>"),
+                              ("src/io/robots/robot_file.cpp", "<yaml-cpp/yaml.h>"),
                               ("kernel/include/sinew/kernel/arc.h", '"sinew/kernel/real.h"'),
                               ("src/link/arc.cpp", "<sinew/kernel/arc.h>")]:
             with self.subTest(path=path):

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <random>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "scenes.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"

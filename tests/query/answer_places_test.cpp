@@ -7,7 +7,7 @@
 #include <set>
 
 #include "corpus.hpp"
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "query/batch/answer_path.hpp"
 #include "query/batch/field_layout.hpp"
 #include "query/tree_session.hpp"

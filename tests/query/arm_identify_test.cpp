@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "measured_arms.hpp"
 #include "sinew/session.hpp"
 #include "sinew_query.hpp"

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "query/fields/answer_fields.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"

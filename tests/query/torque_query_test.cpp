@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "sinew/session.hpp"
 
 namespace sinew::test {

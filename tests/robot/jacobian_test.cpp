@@ -8,7 +8,7 @@
 
 #include "check_jacobian.hpp"
 #include "every_robot.hpp"
-#include "io/serial_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "paths.hpp"
 
 namespace sinew::test {

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "sinew/session.hpp"
 
 int main() {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "io/parse.hpp"
+#include "io/document/parse.hpp"
 #include "server/device/panel/panel.hpp"
 #include "sinew/io/robot_file.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "device_desk.hpp"
 #include "device_way.hpp"
-#include "io/posture_table.hpp"
+#include "io/table/posture_table.hpp"
 #include "paths.hpp"
 #include "sinew/study/study.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <stdexcept>
 
-#include "io/serial_file.hpp"
+#include "io/robots/serial_file.hpp"
 #include "planar_robots.hpp"
 #include "random_leg.hpp"
 #include "sinew/kinematics/inverse.hpp"

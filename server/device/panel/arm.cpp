@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/serial_file.hpp"
+#include "io/robots/serial_file.hpp"
 
 namespace sinew::server::device {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "io/export.hpp"
+#include "io/export/export.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/arm_file.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
 #include "io/measured/measurement.hpp"
-#include "io/parse.hpp"
-#include "io/quantity.hpp"
+#include "io/robots/arm_file.hpp"
 #include "sinew/analysis/identify.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"

@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "io/document/quantity.hpp"
 #include "io/measured/measurement.hpp"
-#include "io/quantity.hpp"
 #include "sinew/analysis/identify.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/io/robot_file.hpp"

@@ -1,5 +1,5 @@
 #include "io/measured/measurement.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// `measurement` of an arm's file: between motors and tendons, and where a marker is. Format:
 /// docs/robot-files.md
 #pragma once
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "sinew/robot/arm.hpp"
 
 namespace sinew::inline v1 {

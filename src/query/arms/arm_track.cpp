@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "query/questions.hpp"
 

@@ -1,8 +1,8 @@
 /// @file arms.hpp
 /// What questions to arms, and to platforms on arms, have in common: what is read of them, and what is told.
 #pragma once
+#include "io/document/reader.hpp"
 #include "io/measured/measurement.hpp"
-#include "io/reader.hpp"
 #include "math/plane_axes.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"

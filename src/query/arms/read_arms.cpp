@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/quantity.hpp"
-#include "io/read_pose.hpp"
+#include "io/document/quantity.hpp"
+#include "io/robots/read_pose.hpp"
 #include "leg/space.hpp"
 #include "query/arms/arms.hpp"
 #include "query/tip.hpp"

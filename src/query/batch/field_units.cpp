@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 #include "query/batch/answer_path.hpp"
 #include "sinew/robot/arm.hpp"
 #include "sinew/robot/arm_legs.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "io/read_pose.hpp"
+#include "io/robots/read_pose.hpp"
 #include "query/batch/row_places.hpp"
 #include "query/kinematic/kinematics.hpp"
 #include "sinew/analysis/velocity.hpp"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "io/quantity.hpp"
-#include "io/reader.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/reader.hpp"
 #include "query/batch/answer_path.hpp"
 #include "query/batch/batch_state.hpp"
 #include "query/batch/choose_outputs.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/chain_shape.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/chains/chain_velocity.hpp"
 #include "query/chains/chains.hpp"
 

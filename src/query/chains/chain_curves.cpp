@@ -1,5 +1,5 @@
 /// `track` of robots on chains with `to`: curves of equilibria along loads and what tendons hold.
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "kinematics/chains/chain_curve.hpp"
 #include "query/chains/chain_answer.hpp"
 #include "query/curves.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "kinematics/chains/chain_sensing.hpp"
 #include "kinematics/effort_sensor.hpp"
 #include "query/chains/chain_answer.hpp"

@@ -1,6 +1,6 @@
 /// `shape` of pseudo-rigid chains.
 #include "analysis/chain_shape.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/chains/chains.hpp"
 
 namespace sinew::inline v1 {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "analysis/chain_shape.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "kinematics/chains/chain_motion.hpp"
 #include "query/chains/chain_velocity.hpp"
 #include "query/chains/chains.hpp"

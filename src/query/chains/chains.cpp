@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/chains/chain_solutions.hpp"
 
 namespace sinew::inline v1 {

@@ -1,7 +1,7 @@
 /// @file chains.hpp
 /// What handlers of questions to pseudo-rigid chains share.
 #pragma once
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "kinematics/chains/arcs.hpp"
 #include "kinematics/chains/chain_analysis.hpp"
 #include "query/handlers.hpp"

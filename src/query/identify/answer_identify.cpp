@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "io/document/reader.hpp"
 #include "io/measured/measurement.hpp"
-#include "io/reader.hpp"
 #include "query/arms/arms.hpp"
 #include "query/identify/identification.hpp"
 #include "query/questions.hpp"

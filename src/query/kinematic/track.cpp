@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "io/quantity.hpp"
-#include "io/reader.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/reader.hpp"
 #include "query/context.hpp"
 #include "query/kinematic/kinematics.hpp"
 #include "query/questions.hpp"

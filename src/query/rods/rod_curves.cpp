@@ -1,8 +1,8 @@
 /// `track` of robots on rods: curves of equilibria along inputs, loads or poses, through folds.
 #include <fmt/format.h>
 
-#include "io/read_pose.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
+#include "io/robots/read_pose.hpp"
 #include "query/curves.hpp"
 #include "query/questions.hpp"
 #include "query/rods/rods.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/questions.hpp"
 #include "query/rods/rods.hpp"
 #include "sinew/kinematics/inverse.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/read_pose.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
+#include "io/robots/read_pose.hpp"
 #include "query/batch/sampler.hpp"
 #include "query/questions.hpp"
 #include "robot/parallel.hpp"

@@ -1,7 +1,7 @@
 /// @file rods.hpp
 /// What handlers of questions to robots on rods share.
 #pragma once
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
 #include "sinew/kinematics/equilibrium.hpp"

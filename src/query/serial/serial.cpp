@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "io/quantity.hpp"
-#include "io/reader.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/reader.hpp"
 #include "math/linalg.hpp"
 #include "query/batch/sampler.hpp"
 #include "query/questions.hpp"

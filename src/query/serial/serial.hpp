@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "query/handlers.hpp"
 #include "query/wants.hpp"
 #include "sinew/kinematics/serial.hpp"

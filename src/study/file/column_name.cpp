@@ -1,5 +1,5 @@
 #include "study/file/column_name.hpp"
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 
 #include <fmt/format.h>
 

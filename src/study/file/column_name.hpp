@@ -3,7 +3,7 @@
 #pragma once
 #include <string_view>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 
 namespace sinew::inline v1 {
 

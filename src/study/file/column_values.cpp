@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "io/quantity.hpp"
-#include "io/reader.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/reader.hpp"
 
 namespace sinew::inline v1 {
 

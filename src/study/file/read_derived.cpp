@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/quantity.hpp"
-#include "io/reader.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/reader.hpp"
 #include "study/file/column_name.hpp"
 #include "study/file/column_values.hpp"
 #include "study/sweep/terms.hpp"

@@ -1,7 +1,7 @@
 /// @file read_derived.hpp
 /// The derived values of a study file: `L3: "1.29 - L1 - L2"`, with limits or without.
 #pragma once
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "sinew/study/study.hpp"
 
 namespace sinew::inline v1 {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "study/file/column_name.hpp"
 #include "study/sweep/terms.hpp"
 

@@ -1,7 +1,7 @@
 /// @file read_fits.hpp
 /// The fits of a study file: one column as a sum of terms, or several with the same coefficients.
 #pragma once
-#include "io/reader.hpp"
+#include "io/document/reader.hpp"
 #include "sinew/study/study.hpp"
 
 namespace sinew::inline v1 {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/parse.hpp"
-#include "io/quantity.hpp"
-#include "io/reader.hpp"
+#include "io/document/parse.hpp"
+#include "io/document/quantity.hpp"
+#include "io/document/reader.hpp"
 #include "query/batch/placeholders.hpp"
 #include "sinew/analysis/singularity.hpp"
 #include "sinew/io/robot_file.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/robot/serial.hpp"
 #include "sinew/tendon/diagram.hpp"

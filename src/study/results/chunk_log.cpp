@@ -14,7 +14,7 @@
 #include <cstring>
 #include <utility>
 
-#include "io/write_file.hpp"
+#include "io/file/write_file.hpp"
 #include "study/results/file_bytes.hpp"
 
 namespace sinew::inline v1 {

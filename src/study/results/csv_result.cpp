@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/quantity.hpp"
-#include "io/write_file.hpp"
+#include "io/document/quantity.hpp"
+#include "io/file/write_file.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/io/table.hpp"
 #include "study/results/result_file.hpp"

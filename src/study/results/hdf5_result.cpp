@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "io/write_file.hpp"
+#include "io/file/write_file.hpp"
 #include "study/results/hdf5_columns.hpp"
 #include "study/results/result_file.hpp"
 

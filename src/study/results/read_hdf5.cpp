@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "io/read_bytes.hpp"
+#include "io/file/read_bytes.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/study/study.hpp"
 #include "study/results/hdf5.hpp"

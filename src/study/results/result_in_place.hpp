@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/write_file.hpp"
+#include "io/file/write_file.hpp"
 #include "study/results/result_file.hpp"
 
 namespace sinew::inline v1 {

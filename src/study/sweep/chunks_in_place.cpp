@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/write_file.hpp"
+#include "io/file/write_file.hpp"
 
 namespace sinew::inline v1 {
 

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <thread>
 
-#include "io/write_file.hpp"
+#include "io/file/write_file.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study/cluster.hpp"
 #include "study/sweep/chunks_in_place.hpp"

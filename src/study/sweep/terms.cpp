@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "io/quantity.hpp"
+#include "io/document/quantity.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 
 namespace sinew::inline v1::example51 {
 

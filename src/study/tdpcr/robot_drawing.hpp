@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/analysis/shape.hpp"
 
 namespace sinew::inline v1::drawing {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "io/contour.hpp"
+#include "io/figure/contour.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1::contour {

@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 
 namespace sinew::inline v1::contour {
 

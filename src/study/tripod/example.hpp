@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/tripod_loci.hpp"
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/kinematics/inverse.hpp"
 #include "study/tripod/contour.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "io/export.hpp"
+#include "io/export/export.hpp"
 
 namespace sinew::inline v1 {
 namespace verilog {

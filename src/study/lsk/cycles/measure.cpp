@@ -10,8 +10,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "io/export.hpp"
-#include "io/process.hpp"
+#include "io/export/export.hpp"
+#include "io/file/process.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study/builtin.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "io/figure.hpp"
+#include "io/figure/figure.hpp"
 #include "sinew/io/table.hpp"
 #include "study/reproduce.hpp"
 #include "study/tripod/design/measures.hpp"
