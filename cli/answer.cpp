@@ -146,13 +146,56 @@ std::string in_options(std::string_view message) {
     const bool has_value = rest.starts_with(": ") && (word == "model" || word == "law" || word == "hold");
     const bool is_field = has_member || has_value || word.find('_') != std::string_view::npos ||
                           word.find('.') != std::string_view::npos;
-    const std::string name = size > 0 && is_field ? option_of(word) : std::string();
+    const bool is_set = rest.starts_with(": true");  // of a flag: all: true
+    const std::string name = size > 0 && (is_field || is_set) ? option_of(word) : std::string();
     text += name.empty() ? std::string(message.substr(at, std::max<std::size_t>(size, 1))) : "--" + name;
     at += std::max<std::size_t>(size, 1);
     if (!name.empty() && has_value) ++at;  // --model prb
+    if (!name.empty() && is_set) at += std::string_view(": true").size();
   }
   return text;
 }
+
+namespace {
+
+/// Of what is wrong with the keys of a question: keys in quotes, and those known there, as options.
+std::string keys_as_options(std::string_view message) {
+  constexpr std::string_view known = "Known here: ";
+  std::string text;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::string_view rest = message.substr(at);
+    std::string_view intro;
+    for (const std::string_view word : {"key \"", "did you mean \""})
+      if (rest.starts_with(word)) intro = word;
+    const std::string_view key = rest.substr(intro.size(), rest.find('"', intro.size()) - intro.size());
+    const std::size_t size = intro.size() + key.size() + 1;
+    const std::string name = intro.empty() || rest.substr(std::min(size, rest.size())).starts_with(" in ")
+                                 ? std::string()
+                                 : option_of(key);
+    if (!name.empty()) {
+      text += fmt::format("{}--{}", intro.starts_with("key") ? "" : intro.substr(0, intro.size() - 1), name);
+      at += size;
+    } else if (rest.starts_with(known)) {
+      const std::string_view list =
+          rest.substr(known.size(), rest.find_first_of(".\n", known.size()) - known.size());
+      std::vector<std::string> options;
+      for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(", ", begin), list.size());
+        if (const std::string option = option_of(list.substr(begin, end - begin)); !option.empty())
+          options.push_back("--" + option);
+        begin = end + 2;
+      }
+      text += options.empty() ? std::string(rest.substr(0, known.size() + list.size()))
+                              : fmt::format("{}{}", known, fmt::join(options, ", "));
+      at += known.size() + list.size();
+    } else {
+      text += message[at++];
+    }
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string json_error(const Errors& errors) {
   std::string message = errors.front().message;
@@ -186,11 +229,14 @@ Errors Answer::errors() const {
   constexpr std::string_view unknown = "unknown key \"";
   if (said.starts_with(unknown)) {  // an option of the verb that this robot or question has no use for
     const std::string key = said.substr(unknown.size(), said.find('"', unknown.size()) - unknown.size());
+    const std::size_t known = said.find("Known here: ");
     if (const std::string name = option_of(key); !name.empty())
       return {{text("error.code"), "--" + name,
-               "this robot, or what is asked of it, has no use for it; leave it out"}};
+               fmt::format("this robot, or what is asked of it, has no use for it; leave it out. {}",
+                           known == said.npos ? "" : keys_as_options(std::string_view(said).substr(known)))}};
   }
-  if (where == "query") return {{text("error.code"), "", in_options(said)}};  // the command line as a whole
+  if (where == "query")  // the command line as a whole
+    return {{text("error.code"), "", in_options(keys_as_options(said))}};
   return {{text("error.code"), as_option(where),
            said.starts_with(where)
                ? as_option(where) + in_options(std::string_view(said).substr(where.size()))

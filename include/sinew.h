@@ -96,7 +96,8 @@ SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question
 /* What goes in and comes out of every row, in this order, in JSON:
  *
  *     {"inputs": [{"name": "inputs", "unit": "m", "rank": 1, "shape": [3]}],
- *      "outputs": [{"name": "position", "unit": "m", "rank": 1, "shape": [3]}], "method": "rods in lanes"}
+ *      "outputs": [{"name": "position", "unit": "m", "rank": 1, "shape": [3]}], "want": [],
+ *      "method": "rods in lanes"}
  *
  * Single numbers have rank 0 and shape []. Units are SI, "" of plain numbers. Where those of a field differ
  * all are named, row after row in the order in which they first stand: "N, N m" of a wrench, "N/m, N, N m" of

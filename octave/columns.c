@@ -31,7 +31,8 @@ double array_number(const mxArray* array, size_t k) {
 }
 
 static const size_t* section_sizes(const json_writer* out, const char* place) {
-  return strcmp(place, "changes") == 0 ? out->facts->change_sizes : out->facts->configuration_sizes;
+  const bool is_of_tendons = strcmp(place, "changes") == 0 || strcmp(place, "tensions") == 0;
+  return is_of_tendons ? out->facts->change_sizes : out->facts->configuration_sizes;
 }
 
 static size_t whole_robot(const json_writer* out, const char* place) {

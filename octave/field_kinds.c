@@ -8,7 +8,7 @@ static bool is_one_of(const char* name, const char* const* names) {
   return false;
 }
 
-enum field_kind field_kind(const char* query, bool is_serial, const char* name) {
+enum field_kind field_kind(const char* query, bool is_serial, bool is_of_arms, const char* name) {
   static const char* const numbers[] = {"x", "y", "phi", "z", "e1", "e2", "tilt", "azimuth", "torsion", NULL};
   static const char* const vectors[] = {
       "inputs",    "wrench",     "gravity", "twist", "along",     "rates",        "position",
@@ -31,10 +31,11 @@ enum field_kind field_kind(const char* query, bool is_serial, const char* name) 
   if (is_serial && strcmp(name, "changes") == 0 && strcmp(query, "diagram") == 0) return FIELD_PLAIN;
   if (is_serial && (strcmp(name, "configuration") == 0 || strcmp(name, "changes") == 0))
     return FIELD_SECTIONS;
+  if (is_of_arms && (strcmp(name, "tensions") == 0 || strcmp(name, "changes") == 0)) return FIELD_SECTIONS;
   return !is_serial && is_one_of(name, rows) ? FIELD_ROWS : FIELD_PLAIN;
 }
 
 bool field_takes_null(const char* name) {
-  static const char* const names[] = {"lengths", "measured_tensions", "tensions", "displacements", NULL};
+  static const char* const names[] = {"lengths", "measured_tensions", "tensions", "changes", "displacements", NULL};
   return is_one_of(name, names);
 }

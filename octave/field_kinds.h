@@ -12,11 +12,11 @@ enum field_kind {
   FIELD_VECTOR,   /* a list of numbers; a matrix has a row a configuration */
   FIELD_LIST,     /* a list, also of one */
   FIELD_ROWS,     /* a list of lists, also of one: a matrix has a row a leg */
-  FIELD_SECTIONS, /* the same of serial robots: a row a section, or a row a configuration of all sections */
+  FIELD_SECTIONS, /* the same of sections: a row a section, or a row a configuration of all sections */
 };
 
 /* What asks: `robot` in a robot's description, else the name of the query. */
-enum field_kind field_kind(const char* query, bool is_serial, const char* name);
+enum field_kind field_kind(const char* query, bool is_serial, bool is_of_arms, const char* name);
 
 /* Whether NaN stands for null there: a tendon of which nothing is given. */
 bool field_takes_null(const char* name);

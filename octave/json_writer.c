@@ -77,8 +77,8 @@ void json_put_number(json_writer* out, const char* place, const mxArray* array, 
       if (mxGetNumberOfElements(array) == 1)
         json_problem(out, "%s is %s; give a finite number.", place, isnan(number) ? "NaN" : "infinite");
       else
-        json_problem(out, "%s: its number %zu is %s; give finite numbers.", place, k + 1,
-                     isnan(number) ? "NaN" : "infinite");
+        json_problem(out, "%s(%zu, %zu) is %s; give finite numbers.", place, k % mxGetM(array) + 1,
+                     k / mxGetM(array) + 1, isnan(number) ? "NaN" : "infinite");
       return;
     }
     snprintf(text, sizeof text, "%.17g", number); /* reads back to the same double */
@@ -172,7 +172,7 @@ static void put_members(json_writer* out, const char* place, const mxArray* stru
     json_put_text(out, name, strlen(name));
     put(out, ":");
     snprintf(inner, sizeof inner, "%s%s%s", place, *place ? "." : "", name);
-    json_put_value(out, inner, field_kind(out->query, out->facts && out->facts->is_serial, name), value);
+    json_put_value(out, inner, field_kind(out->query, out->facts && out->facts->is_serial, out->facts && out->facts->is_of_arms, name), value);
   }
   put(out, "}");
 }

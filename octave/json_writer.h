@@ -13,13 +13,13 @@
 #include "field_kinds.h"
 #include "mex.h"
 
-enum { MAX_SECTIONS = 12, MAX_COLUMNS = 200 };
+enum { MAX_SECTIONS = 100, MAX_COLUMNS = 200 };
 
 /* What the shape of a question depends on. */
 typedef struct {
-  bool is_serial;
+  bool is_serial, is_of_arms;
   size_t input_count;
-  size_t section_count;
+  size_t section_count; /* of legs of sections those of all legs */
   size_t configuration_sizes[MAX_SECTIONS], change_sizes[MAX_SECTIONS];
 } robot_facts;
 

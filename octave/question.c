@@ -102,7 +102,7 @@ void question_write(json_writer* out, const mxArray* query, const mxArray* field
       if (strcmp(name, "outputs") == 0 && !mxIsStruct(value))
         put_outputs(out, value);
       else
-        json_put_value(out, name, field_kind(out->query, out->facts->is_serial, name), value);
+        json_put_value(out, name, field_kind(out->query, out->facts->is_serial, out->facts->is_of_arms, name), value);
     }
   }
   if (mxGetNumberOfElements(settings) > 0) put_settings(out, settings);

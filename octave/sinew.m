@@ -27,7 +27,7 @@ classdef sinew < handle
   end
   properties (Access = private)
     number = [];    % of the robot in sinew_mex
-    kind = '';      % parallel or serial
+    kind = '';      % parallel, serial, arm or arm_legs
   end
 
   methods
@@ -56,12 +56,13 @@ classdef sinew < handle
     end
 
     function a = forward (r, varargin)
-      % Pose from inputs: r.forward (inputs, ...), of a serial robot r.forward (configuration, ...)
+      % Pose from inputs: r.forward (inputs, ...), of a serial robot r.forward (configuration, ...), of an arm
+      % r.forward (tensions, ...)
       a = r.put ('forward', varargin);
     end
 
     function a = inverse (r, varargin)
-      % Inputs from a pose: r.inverse (pose, ...), of a serial robot also r.inverse (position, ...)
+      % Inputs from a pose: r.inverse (pose, ...), of a serial robot or an arm r.inverse (position, ...)
       a = r.put ('inverse', varargin);
     end
 
@@ -183,12 +184,14 @@ classdef sinew < handle
         name = 'pose';
       elseif ischar (value)
         error ('sinew:bad_input', '%s: "%s" has no value; names and values come in turn.', query, value);
-      elseif ~ strcmp (r.kind, 'serial')
+      elseif strcmp (r.kind, 'parallel')
         name = 'inputs';
       elseif strcmp (query, 'inverse')
         name = 'position';
-      else
+      elseif strcmp (r.kind, 'serial')
         name = 'configuration';
+      else
+        name = 'tensions';
       end
     end
   end

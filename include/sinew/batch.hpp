@@ -61,6 +61,8 @@ class SINEW_API Batch {
 
   std::span<const Field> inputs() const;   ///< in the order in which they stand in the question
   std::span<const Field> outputs() const;  ///< in the order of the question
+  /// Words of `want` that rows are asked with: those of the question, and those that its outputs go with.
+  std::vector<std::string_view> wants() const;
   /// How rows are computed: `rods in lanes`, `poses in lanes`, `query by query`, ...
   std::string_view method() const;
 

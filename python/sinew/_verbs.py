@@ -65,9 +65,10 @@ def _method(name: str) -> Any:
 
     def ask(self: Any, value: Any = None, /, **fields: Any) -> Any:
         if value is not None:
-            if first in fields:
-                raise TypeError(f"{name}() got {first!r} twice")
-            fields[first] = value
+            field = self._subject(name, value) if first in ("inputs", "pose") else first
+            if field in fields:
+                raise TypeError(f"{name}() got {field!r} twice")
+            fields[field] = value
         return self._ask(name, fields)
 
     ask.__name__, ask.__qualname__, ask.__doc__ = name, f"Robot.{name}", document(name)

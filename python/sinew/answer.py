@@ -142,7 +142,8 @@ class Answer(Record):
     @property
     def units(self) -> dict[str, str]:
         """Units of the fields by their place: `{"pose.position": "m", ...}`. SI throughout; "" of plain numbers."""
-        return dict(_units(self._plain(), self._robot, ""))
+        units = dict(_units(self._plain(), self._robot, ""))
+        return {**units, **_units_of_robot(self, [place for place, unit in units.items() if ", " in unit and "[]" not in place])}
 
     def to_json(self) -> str:
         """The answer as the library wrote it, numbers to all digits, SI and radians."""
@@ -181,6 +182,32 @@ def _unit(place: str, name: str) -> str | None:
         if words.endswith(end):
             return unit or (None if end.startswith(_MIXED) else "")
     return UNITS.get(name)
+
+
+def _units_of_robot(answer: Answer, places: list[str]) -> dict[str, str]:
+    """Of places whose numbers have several units, of which a robot has some: as those of rows of the same question."""
+    question = dict(answer.question.to_dict())
+    query = question.pop("query", None)
+    from .prepared import Prepared
+    for pattern in _patterns(question) if places else ():
+        try:
+            prepared = Prepared(answer.robot, query, pattern, {f"place_{index}": place for index, place in enumerate(places)}, None)
+        except ValueError:  # what was named is no field of numbers
+            continue
+        return {place: field["unit"] for place, field in zip(places, prepared.layout["outputs"])}
+    return {}
+
+
+def _patterns(value: Any) -> Iterator[Any]:
+    """The same with "$row" in the place of a list of numbers or of a number, one after the other."""
+    if _arrays.depth(value) or type(value) in (float, int):
+        yield "$row"
+    if type(value) is dict:
+        for name, item in value.items():
+            yield from ({**value, name: pattern} for pattern in _patterns(item))
+    elif type(value) is list:
+        for index, item in enumerate(value):
+            yield from ([*value[:index], pattern, *value[index + 1:]] for pattern in _patterns(item))
 
 
 def _units(plain: Mapping[str, Any], robot: Robot, outer: str) -> Iterator[tuple[str, str]]:

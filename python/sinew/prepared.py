@@ -115,7 +115,7 @@ class Prepared(_sinew.Question):
         place of the question's.
         """
         named = {field["name"]: value for field, value in zip(self.layout["inputs"], values)}
-        fields = _filled(self._made_of[2], named, self.robot, "")
+        fields = {**_filled(self._made_of[2], named, self.robot, ""), **({"want": self.layout["want"]} if self.layout["want"] else {})}
         answer: Answer = self.robot._ask(self.query, fields if start is None else {**fields, "start": start})
         return answer
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 import importlib.resources
 import itertools
 import json
+import math
 import os
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Union
 
 from . import _sinew
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Robot"]
 _FILE, _TEXT = 0, 1
 _OF_ROWS = frozenset(BATCH)
+_SUBJECTS = {"serial": "configuration", "arm": "tensions", "arm_legs": "tensions"}
 
 
 class Robot(Verbs):
@@ -168,6 +170,13 @@ class Robot(Verbs):
     def _input_units(self) -> list[str]:
         return [entry["unit"] for entry in self._about()._plain()["inputs"]]
 
+    def _subject(self, query: str, value: Any) -> str:
+        """What a question is mostly about, whose value goes without a name."""
+        kind = self._about()._plain()["kind"]
+        if isinstance(value, Mapping) or (query == "inverse" and kind not in ("serial", "arm")):
+            return "pose"
+        return "position" if query == "inverse" else _SUBJECTS.get(kind, "inputs")
+
     def _by_sections(self, numbers: list[float]) -> list[list[float]]:
         """Numbers of all tendons, in order, as a list a section."""
         left = iter(numbers)
@@ -269,10 +278,29 @@ def _read(path: str) -> str:
 def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
     """A copy that JSON can write: arrays as lists."""
     try:
+        for place, number in _numbers_of(values, ""):
+            if not math.isfinite(number):
+                raise InputError(f"{place} is {number}; give a finite number", "out_of_range", place)
         copied: dict[str, Any] = json.loads(json.dumps(values, default=_convert, allow_nan=False))
+    except InputError:
+        raise
     except (TypeError, ValueError, RecursionError) as error:
         raise InputError(f"this is no robot or change of one: {error}", "wrong_type", "set") from None
     return copied
+
+
+def _numbers_of(value: Any, place: str) -> Iterator[tuple[str, float]]:
+    """Floating point numbers with their places, `legs[0].link.length`."""
+    if isinstance(value, float):
+        yield place, value
+    elif isinstance(value, Mapping):
+        for name, item in value.items():
+            yield from _numbers_of(item, f"{place}.{name}" if place else str(name))
+    elif isinstance(value, (list, tuple)):
+        for index, item in enumerate(value):
+            yield from _numbers_of(item, f"{place}[{index}]")
+    elif hasattr(value, "tolist"):
+        yield from _numbers_of(value.tolist(), place)
 
 
 def _convert(value: Any) -> Any:

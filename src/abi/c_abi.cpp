@@ -274,6 +274,7 @@ char* sinew_fields(const sinew_batch* batch) {
     };
     return given(nlohmann::ordered_json{{"inputs", fields(batch->batch.inputs())},
                                         {"outputs", fields(batch->batch.outputs())},
+                                        {"want", batch->batch.wants()},
                                         {"method", batch->batch.method()}}
                      .dump());
   } catch (const std::exception&) {
@@ -299,9 +300,16 @@ std::string oddity(const sinew::Batch& batch, const In& in, const Out& out,
       for (std::size_t i = 0; i < batch.inputs()[f].size(); ++i) numbers.push_back(in[f](row, i));
     return batch.answer(numbers);
   };
-  if (const std::size_t bad = first(sinew::Status::bad_input); bad < statuses.size()) return answer(bad);
+  const auto message = [&](const std::string& of_row) {
+    return nlohmann::json::parse(of_row).value("message", "the robot has no answer");
+  };
+  if (const std::size_t bad = first(sinew::Status::bad_input); bad < statuses.size()) {
+    const std::string of_row =
+        answer(bad);  // of numbers that a typed question takes, such as infinity, a status
+    return of_row.starts_with(R"({"error")") ? of_row : message(of_row);
+  }
   if (const std::size_t lacking = first(sinew::Status::unsupported); lacking < statuses.size())
-    return nlohmann::json::parse(answer(lacking)).value("message", "the robot has no answer");
+    return message(answer(lacking));
   const auto solved = static_cast<std::uint8_t>(sinew::Status::converged);
   if (std::ranges::find(statuses, solved) == statuses.end()) return {};
   for (std::size_t f = 0; f < out.size(); ++f) {

@@ -96,7 +96,7 @@ void Search::value(const Place& path, const Node& node, Dimension dimension, dou
     si = parse_quantity(node.text, dimension).value_or(0.0);
   else if (!is_bare)
     return;
-  if (!found_.empty() || most <= 0 || !(std::abs(si) > most)) return;
+  if (!found_.empty() || most <= 0 || !(std::abs(si) > most) || !std::isfinite(si)) return;
   const std::string size =
       dimension == Dimension::angle
           ? fmt::format("{:.3g} turns", std::abs(si) / far_angle)

@@ -273,6 +273,7 @@ TEST(CAbi, RunsRowsOfColumns) {
   EXPECT_EQ(told["inputs"][1], (Json{{"name", "b"}, {"unit", "m"}, {"rank", 0}, {"shape", Json::array()}}));
   EXPECT_EQ(told["outputs"][1], (Json{{"name", "quaternion"}, {"unit", ""}, {"rank", 1}, {"shape", {4}}}));
   EXPECT_EQ(told["method"], "rods in lanes");
+  EXPECT_EQ(told["want"], Json::array());
   for (int k = 0; k < 100; ++k)
     for (const double length : {0.43, 0.43 + 1e-4 * k, 0.43 - 1e-4 * k}) rows.in.push_back(length);
   EXPECT_EQ(told["outputs"].size(), 3U);

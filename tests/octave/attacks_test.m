@@ -4,7 +4,7 @@ r = sinew ('3pfs-g2');
 ok = [0.44 0.42 0.41];
 
 % Values.
-refused ('is NaN', @() r.forward ([0.44 0.42 NaN]));
+refused ('inputs(1, 3) is NaN', @() r.forward ([0.44 0.42 NaN]));
 refused ('is infinite', @() r.forward ([0.44 0.42 -Inf]));
 refused ('max_iterations is NaN', @() r.forward (ok, 'max_iterations', NaN));
 refused ('complex', @() r.forward (ok + 1i));

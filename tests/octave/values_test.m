@@ -119,6 +119,18 @@ assert ([planar.describe('set', nested).legs.link](2).length, 0.21);
 assert (planar.ask ('{"query": "forward", "inputs": [0.19, 0.19, 0.188]}').ok);
 assert (planar.ask (struct ('query', 'forward', 'inputs', [0.19 0.19 0.188])).ok);
 
+% Arms: a row a section or one row; tensions come first; NaN where nothing is given.
+arm = sinew ('two-segment');
+a = arm.forward ([1 0 0; 0 1 0]);
+assert (isequal (arm.forward ([1 0 0 0 1 0]).tip, a.tip));
+assert (isequal (arm.forward ('tensions', [1 0 0; 0 1 0]).tip, a.tip));
+assert (arm.forward ('tensions', [1 0 0 0 1 0; 2 0 0 0 1 0]).position(1, :), a.tip.position, 1e-12);
+pulled = arm.forward ('changes', [-0.001 NaN NaN; 0 NaN NaN]);
+assert (pulled.ok && pulled.changes(1, 1) == -0.001);
+assert (arm.inverse ([0.05 0.03 0.38]).ok);
+legs = sinew ('tripod-two-section');
+assert (isequal (legs.forward (zeros (1, 18) + 0.1).pose, legs.forward (zeros (6, 3) + 0.1).pose));
+
 % As it shows.
 shown = evalc ('r');
 assert (any (strfind (shown, 'sinew robot 3PFS-G2 (parallel)')));

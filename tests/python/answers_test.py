@@ -7,6 +7,8 @@ import pickle
 import tempfile
 import unittest
 
+import numpy as np
+
 import sinew
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -71,6 +73,9 @@ class Robots(unittest.TestCase):
         self.assertEqual(changed.forward([0.19, 0.19, 0.188]).pose, robot.forward([0.19, 0.19, 0.188], **own).pose)
         with self.assertRaisesRegex(sinew.InputError, "legs"):
             robot.set({"legs[9].link.length": 1})
+        for values in ({"legs": {"0": [1.0, float("nan")]}}, {"legs[0]": [np.array([1, np.inf])]}):
+            with self.assertRaisesRegex(sinew.InputError, r"^legs.* is (nan|inf); give a finite number"):
+                robot.set(values)
 
 
 class Answers(unittest.TestCase):
@@ -131,6 +136,12 @@ class Answers(unittest.TestCase):
         self.assertTrue(robot.shape(pose=home).ok)
         self.assertTrue(arm.diagram(section=0, changes=[-0.0011, 0.002, -0.0005])["class"])
         self.assertTrue(arm.velocity(configuration=[[0.1, 0.1]]).ok)
+        self.assertEqual(arm.velocity([[0.1, 0.1]]), arm.velocity(configuration=[[0.1, 0.1]]))
+        self.assertEqual(arm.inverse([0.05, 0.02, 0.12]).question.position.tolist(), [0.05, 0.02, 0.12])
+        elastic = sinew.load("two-segment")
+        self.assertEqual(elastic.forward([[1, 0, 0], [0, 1, 0]]), elastic.forward(tensions=[[1, 0, 0], [0, 1, 0]]))
+        with self.assertRaisesRegex(TypeError, "'tensions' twice"):
+            elastic.forward([[1, 0, 0], [0, 1, 0]], tensions=[[1, 0, 0], [0, 1, 0]])
         self.assertEqual(robot.ask({"query": "inverse", "pose": home}), robot.inverse(home))
         self.assertEqual(robot.ask('{"id": 7, "query": "inverse", "pose": {"x": 0, "y": 0, "phi": 0}}')["id"], 7)
 
@@ -169,9 +180,16 @@ class Units(unittest.TestCase):
         one = robot.forward(LENGTHS, want=wants).units
         self.assertEqual((one["margins.fold"], one["margins.strain"]), ("", ""))
         many = robot.prepare("forward", inputs="$l", want=wants, outputs={f"out_{index}": place for index, place in enumerate(places)}).outputs
-        for place, field in zip(places, many):  # an answer tells those of all robots, columns those of this one
-            units = one.get(place, field["unit"]).split(", ")
-            self.assertLessEqual(set(field["unit"].split(", ")), set(units), place)
+        for place, field in zip(places, many):
+            self.assertEqual(one[place], field["unit"], place)
+
+    def test_are_those_of_the_robot(self):
+        planar, arm = sinew.load("3-rfr"), sinew.load("two-segment")
+        units = planar.velocity([0.193, 0.189, 0.187]).units
+        self.assertEqual((units["J"], units["K"], units["U"]), ("m, m^2", "m", "1, rad/m"))
+        self.assertEqual(planar.velocity(pose={"x": 0, "y": 0, "phi": 0}).units["J"], "m, m^2")
+        units = arm.forward([[1, 0, 0], [0, 0, 0]], want=["velocity", "stiffness"]).units
+        self.assertEqual((units["U"], units["stiffness"]), ("m/N, rad/N", "N/m, N, N m"))
 
 
 class Paths(unittest.TestCase):

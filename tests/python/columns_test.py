@@ -116,6 +116,9 @@ class Columns(unittest.TestCase):
         self.assertTrue(np.isnan(found.x[2]))
         self.assertIn("1 bad_input of 5 rows", found.message)
         self.assertEqual(found.counts, {"left_domain": 1, "converged": 3, "bad_input": 1})
+        of_rods = sinew.load("3pfs-g2").forward(np.array([[np.inf, 0.42, 0.41]]))
+        self.assertEqual((of_rods.status[0], of_rods.message),
+                         (sinew.Status.bad_input, "1 bad_input of 1 rows: inputs[0] is not a length a rod can have; it must be positive"))
 
     def test_constants_and_columns_mix(self):
         robot = sinew.load("3pfs-g2")
@@ -248,6 +251,7 @@ class Columns(unittest.TestCase):
     def test_a_row_has_a_number(self):
         found = self.robot.forward(rows(5))
         self.assertEqual(found[np.int64(-1)], found[4])
+        self.assertEqual(sinew.load("3pfs-g2").forward(np.full((2, 3), 0.42), outputs=["stiffness"])[1].stiffness.shape, (6, 6))
         for wrong in (slice(1, 3), 1.0, None, np.arange(2)):
             with self.assertRaisesRegex(TypeError, "a whole number; found"):
                 found[wrong]

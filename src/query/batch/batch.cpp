@@ -9,7 +9,9 @@
 
 #include "query/batch/batch_state.hpp"
 #include "query/batch/placeholders.hpp"
+#include "query/fields/fields.hpp"
 #include "query/tree_session.hpp"
+#include "query/wants.hpp"
 #include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v1 {
@@ -92,6 +94,15 @@ Batch::Batch(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 std::span<const Batch::Field> Batch::inputs() const { return state_->inputs; }
 std::span<const Batch::Field> Batch::outputs() const { return state_->outputs; }
+std::vector<std::string_view> Batch::wants() const {
+  const Wants named = named_wants(state_->question.query.root);
+  const auto words = find_field("want")->words;
+  std::vector<std::string_view> found;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    if (named.has(static_cast<Want>(k))) found.push_back(words[k]);
+  return found;
+}
+
 std::string_view Batch::method() const { return state_->kind.name; }
 
 void Batch::run(std::size_t rows, std::span<const Strided<const double>> inputs,
