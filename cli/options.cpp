@@ -9,6 +9,9 @@
 namespace sinew::cli {
 namespace {
 
+constexpr std::string_view figures[] = {"line", "points", "map", "contour", "sides", "3d", "diagram"},
+                           instruction_sets[] = {"native", "avx512", "avx2", "baseline"};
+
 constexpr std::array own_options{
     Option{"to", "\"X, Y, PHI\"|LANGUAGE", "last pose of a path; of export the language: c-header, verilog"},
     Option{"to-inputs", "\"A, B, ...\"", "of branches the inputs where the curve leads"},
@@ -44,7 +47,8 @@ constexpr std::array own_options{
     Option{
         "isa", "NAME",
         "instruction set: native (default), avx512, avx2, or baseline, whose results are the same bytes on "
-        "every machine"},
+        "every machine",
+        0, false, instruction_sets},
     Option{"seed", "N",
            "of random numbers; one seed, one answer; default 1, of scene the dimensions as they are"},
     Option{"time-limit", "TIME", "after which plan gives up; default 60 s"},
@@ -77,7 +81,8 @@ constexpr std::array own_options{
     Option{"list", "", "only list what there is; of sweep what it would do"},
     Option{"as", "NAME",
            "the kind of figure: of a table line, points, map or contour; of a robot sides, 3d or diagram; "
-           "default what suits"},
+           "default what suits",
+           0, false, figures},
     Option{"x", "COLUMN|AXIS",
            "of plot the column along x, default the first; of map a value, or FROM : TO : COUNT, default the "
            "home's"},
@@ -190,7 +195,15 @@ struct FieldOption {
   explicit FieldOption(const Field& of) : name(of.name), help(in_dashes(of.meaning)), field(&of) {
     std::ranges::replace(name, '_', '-');
   }
-  Option option() const { return {name, spelling(*field), help, 0, field->shape == FieldShape::settings}; }
+  Option option() const {
+    return {name,
+            spelling(*field),
+            help,
+            0,
+            field->shape == FieldShape::settings,
+            field->words,
+            field->shape == FieldShape::words};
+  }
 };
 
 bool is_own(std::string_view name) {

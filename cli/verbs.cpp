@@ -212,14 +212,16 @@ const std::array table{
         "serve",
         "[ROBOT]",
         "queries over HTTP, on this machine or with a token from others",
-        {"scene", "plan", "host", "port", "frame", "demo", "device", "baud", "record", "stage-motor", "quiet",
-         "help"},
+        {"set", "scene", "plan", "host", "port", "frame", "demo", "device", "baud", "record", "stage-motor",
+         "quiet", "help"},
         {},
         "Prints the address and answers there until Ctrl-C. The calls are in docs/server.md. Nothing is read "
         "but\n"
         "the robot, the scene and the plans that are named, and recordings of devices; nothing is written "
         "but\n"
         "these; no request leaves this machine.\n"
+        "--set changes the robot that the page opens with, that of a device, too, not those of plans:\n"
+        "  sinew serve 3-rfr --set \"legs[0].link.length=180 mm\"\n"
         "--scene engine/scene.yaml --plan plan.csv opens a plan of sinew plan: the way in, step by step, in "
         "its\n"
         "scene, with its check.\n"

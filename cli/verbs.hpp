@@ -35,6 +35,8 @@ struct Option {
   std::string_view help;
   char letter = 0;  ///< short form, if there is one
   bool repeats = false;
+  std::span<const std::string_view> words = {};  ///< that its value may be; none: it may be anything
+  bool takes_list = false;                       ///< of them, with commas between
 };
 
 struct Verb {

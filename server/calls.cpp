@@ -97,15 +97,21 @@ Calls::Calls(const Options& options)
       jobs_(options.limits.jobs, robots_, rate_, dog_) {}
 
 std::optional<Errors> Calls::read_opened() {
-  if (!options_.robot.empty())
-    if (const auto session = Session::open(options_.robot); !session) return session.error();
+  if (!options_.robot.empty()) {
+    const auto session =
+        changed_robot(options_.robot, options_.settings).and_then([](const Document& document) {
+          return Session::open(document);
+        });
+    if (!session) return session.error();
+  }
   if (const auto read = plans_.read(options_.scene, options_.plans); !read) return read.error();
   return open_device();
 }
 
 std::optional<Errors> Calls::open_device() {
   const DeviceChoice& choice = options_.device;
-  device::DeviceOptions chosen{choice.is_demo, choice.port, choice.baud, choice.folder, {}};
+  device::DeviceOptions chosen{choice.is_demo, choice.port, choice.baud,
+                               choice.folder,  {},          options_.settings};
   if (!chosen.is_wanted()) return {};
   if (!choice.stage_motor.empty()) {
     const auto motor = parse_yaml(choice.stage_motor, "--stage-motor").and_then([](const Document& document) {
@@ -184,10 +190,18 @@ Reply Calls::robots() const {
   }();
   Json opened;  // read again each time, so that a page sees what an editor has saved
   // Of a device the file as it was when it was opened: it is what the device's numbers are of.
-  const auto text = options_.robot.empty() ? Expected<std::string>()
-                    : device_              ? Expected<std::string>(device_->robot_text())
-                                           : read_robot_text(options_.robot);
-  if (text && !text->empty()) opened = {{"name", options_.robot}, {"text", *text}};
+  const auto changed = [&]() -> Expected<std::string> {
+    if (options_.robot.empty()) return {};
+    if (device_) return device_->robot_text();
+    return changed_text(options_.robot, options_.settings);
+  }();
+  const auto text = options_.settings.empty() ? changed : read_robot_text(options_.robot);
+  if (text && changed && !text->empty()) opened = {{"name", options_.robot}, {"text", *text}};
+  if (!opened.is_null() && !options_.settings.empty()) {
+    Json set = Json::array();
+    for (const Member& setting : options_.settings) set.push_back(setting_text(setting));
+    opened["changed"] = {{"text", *changed}, {"set", set}};
+  }
   return {200, written({{"robots", shipped}, {"opened", opened}})};
 }
 

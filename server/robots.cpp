@@ -8,13 +8,34 @@
 #include <utility>
 
 #include "io/document/parse.hpp"
+#include "io/document/yaml_text.hpp"
 #include "reply.hpp"
+#include "sinew/io/robot_file.hpp"
 
 namespace sinew::server {
 
 std::string handle_of(std::string_view text) {
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string setting_text(const Member& setting) {
+  const Node& value = setting.value;
+  return setting.key + '=' + (value.kind == Node::Kind::string ? value.text : yaml_line(value));
+}
+
+Expected<Document> changed_robot(const std::string& robot, std::span<const Member> settings) {
+  return read_robot_file(robot).and_then([&](const Document& document) { return with(document, settings); });
+}
+
+Expected<std::string> changed_text(const std::string& robot, std::span<const Member> settings) {
+  if (settings.empty()) return read_robot_text(robot);
+  return changed_robot(robot, settings).map([&](const Document& document) {
+    std::string text = fmt::format("# {}, changed by --set\n", one_line(robot, 200));
+    for (const Member& setting : settings)
+      text += fmt::format("#   {}\n", one_line(setting_text(setting), 200));
+    return text + yaml_text(document.root);
+  });
 }
 
 OpenRobot::OpenRobot(Document document, Session first) : document_(std::move(document)) {

@@ -5,17 +5,26 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "sinew/base/error.hpp"
+#include "sinew/io/node.hpp"
 #include "sinew/session.hpp"
 
 namespace sinew::server {
 
 /// The same for the same text.
 std::string handle_of(std::string_view text);
+
+/// The robot of a file, or one that ships, as settings by their paths change it.
+Expected<Document> changed_robot(const std::string& robot, std::span<const Member> settings);
+/// The same as the text of a file; without settings that of the file itself.
+Expected<std::string> changed_text(const std::string& robot, std::span<const Member> settings);
+/// As a command line has it, `legs[0].link.length=180 mm`.
+std::string setting_text(const Member& setting);
 
 /// One text, and sessions of it that nobody uses at the moment.
 class OpenRobot {

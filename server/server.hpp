@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sinew/base/error.hpp"
+#include "sinew/io/node.hpp"
 
 namespace sinew::server {
 
@@ -55,6 +56,7 @@ struct Options {
   std::string address = "127.0.0.1";
   int port = 8765;                 ///< 0: any that is free
   std::string robot;               ///< file or name of the robot that the page opens with; empty: none
+  std::vector<Member> settings;    ///< what is changed in it, by the paths of its file
   std::string scene;               ///< file of the scene that the plans are of; empty: none
   std::vector<std::string> plans;  ///< files of insertions into it
   DeviceChoice device;

@@ -59,6 +59,14 @@ Operand operand_of(const Verb& verb) {
 /// Whether a table of rows comes second.
 bool has_rows(const Verb& verb) { return verb.operand.ends_with(" ROWS"); }
 
+/// Options whose values are words, in the order of the table.
+std::vector<const Option*> options_of_words() {
+  std::vector<const Option*> options;
+  for (const Option& known : all_options())
+    if (!known.words.empty()) options.push_back(&known);
+  return options;
+}
+
 /// Of an option, whether its value is a file.
 bool takes_file(const Option& known) { return known.value == "FILE"; }
 
@@ -83,9 +91,12 @@ std::string zsh_quoted(std::string_view text) {
 std::string fish_quoted(std::string_view text) { return '\'' + escaped(text, "\\'") + '\''; }
 
 std::string bash() {
-  std::string lists, cases;
+  std::string lists, cases, values;
   for (const Set& set : sets)
     lists += fmt::format("  local {}=\"{}\"\n", set.name, fmt::join(set.words(), " "));
+  for (const Option* known : options_of_words())
+    values += fmt::format("      --{}) values=\"{}\"{} ;;\n", known->name, fmt::join(known->words, " "),
+                          known->takes_list ? " list=1" : "");
   for (const Verb& verb : verbs()) {
     const Operand operand = operand_of(verb);
     std::string options, words;
@@ -100,6 +111,7 @@ std::string bash() {
 # ~/.local/share/bash-completion/completions/sinew
 _sinew() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} verb=${{COMP_WORDS[1]}} options= words= files=
+  local before=${{COMP_WORDS[COMP_CWORD-1]}} values= list= begun=
 {}  COMPREPLY=()
   if ((COMP_CWORD == 1)); then
     mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$word")
@@ -107,7 +119,19 @@ _sinew() {{
   fi
   case $verb in
 {}  esac
-  if [[ $word == -* ]]; then
+  if [[ $word == = ]]; then  # --model=prb are three words here
+    word=
+  elif [[ $before == = ]]; then
+    before=${{COMP_WORDS[COMP_CWORD-2]}}
+  fi
+  if [[ " $options " == *" $before "* ]]; then
+    case $before in
+{}    esac
+  fi
+  if [[ $values ]]; then
+    [[ $list && $word == *,* ]] && begun=${{word%,*}},
+    mapfile -t COMPREPLY < <(compgen -P "$begun" -W "$values" -- "${{word#"$begun"}}")
+  elif [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
   elif ((COMP_CWORD == 2)); then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word"
@@ -118,7 +142,7 @@ _sinew() {{
 }}
 complete -o default -o nospace -F _sinew sinew
 )sh",
-                     lists, cases);
+                     lists, cases, values);
 }
 
 /// `'--inputs[in leg order]:A, B, ...: '`, as _arguments has it.
@@ -128,7 +152,12 @@ std::string zsh_option(const Option& known) {
   if (!known.value.empty()) {
     std::string bare(known.value);
     std::erase(bare, '"');
-    value = fmt::format(":{}:{}", escaped(bare, "\\:"), takes_file(known) ? "_files" : " ");
+    const std::string words = fmt::format("{}", fmt::join(known.words, " ")),
+                      action = known.takes_list       ? "_values -s , word " + words
+                               : !known.words.empty() ? '(' + words + ')'
+                               : takes_file(known)    ? "_files"
+                                                      : " ";
+    value = fmt::format(":{}:{}", escaped(bare, "\\:"), action);
   }
   const std::string rest = zsh_quoted(fmt::format("[{}]{}", text, value));
   if (known.letter) return fmt::format("'(-{0} --{1})'{{-{0},--{1}}}{2}", known.letter, known.name, rest);
@@ -189,6 +218,15 @@ fi
                      lists, cases);
 }
 
+/// What follows an option, as fish has it.
+std::string fish_value(const Option& known) {
+  if (known.value.empty()) return "";
+  if (takes_file(known)) return " -r -F";
+  if (known.words.empty()) return " -x";
+  const std::string words = fmt::format("{}", fmt::join(known.words, " "));
+  return fmt::format(" -x -a '{}'", known.takes_list ? "(__sinew_list " + words + ")" : words);
+}
+
 std::string fish() {
   std::string lines;
   for (const Set& set : sets)
@@ -216,10 +254,7 @@ std::string fish() {
     for (const std::string_view name : verb.options) {
       const Option& known = option(name);
       lines += fmt::format("complete -c sinew -n '__sinew_verb {}' -l {}{}{} -d {}\n", verb.name, name,
-                           known.letter ? fmt::format(" -s {}", known.letter) : "",
-                           known.value.empty() ? ""
-                           : takes_file(known) ? " -r -F"
-                                               : " -x",
+                           known.letter ? fmt::format(" -s {}", known.letter) : "", fish_value(known),
                            fish_quoted(known.help));
     }
   }
@@ -236,6 +271,12 @@ function __sinew_operand
 end
 function __sinew_rows
   __sinew_verb $argv; and test (count (commandline -opc)) -eq 3
+end
+function __sinew_list
+  set -l begun (commandline -ct | string replace -r '^--[^=]*=' '' | string match -r '.*,')
+  for word in $argv
+    echo "$begun$word"
+  end
 end
 complete -c sinew -f
 )" + lines;

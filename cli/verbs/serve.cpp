@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "request.hpp"
 #include "server/assets.hpp"
 #include "server/server.hpp"
 #include "terminal.hpp"
@@ -55,6 +56,13 @@ Expected<server::DeviceChoice> read_device(const Arguments& arguments) {
 Expected<server::Options> read_options(const Arguments& arguments) {
   server::Options options;
   options.robot = arguments.operand();
+  auto changes = settings(arguments);
+  if (!changes) return tl::unexpected(changes.error());
+  if (!changes->empty() && options.robot.empty())
+    return failure("missing_robot", "--set",
+                   "it changes the robot that the page opens with; name one: sinew serve 3-rfr --set "
+                   "\"legs[0].link.length=180 mm\"");
+  options.settings = std::move(*changes);
   if (const std::string* address = arguments.text("host")) options.address = *address;
   if (const std::string* text = arguments.text("port")) {
     const auto port = read_port(*text);

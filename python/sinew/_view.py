@@ -1,6 +1,7 @@
 """The command `sinew`, which a wheel brings along, and its viewer."""
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -47,13 +48,12 @@ class View:
     """Where it is: `http://127.0.0.1:...`."""
 
     def __init__(self, robot: Robot, port: int, open_browser: bool) -> None:
-        if robot._settings:
-            raise InputError("the viewer shows robots as their files have them; this one was changed by set(): write a file of it",
-                             "not_available", "set")
         program = command()
         self._folder = tempfile.TemporaryDirectory(prefix="sinew-")
         self._is_frame = _in_notebook()
         arguments = [program, "serve", _source(robot, self._folder.name), "--port", str(port)] + ["--frame"] * self._is_frame
+        for path, value in robot._settings.items():
+            arguments += ["--set", f"{path}={value if isinstance(value, str) else json.dumps(value)}"]
         self._process = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert self._process.stdout and self._process.stderr
         self.url = self._process.stdout.readline().strip()

@@ -12,7 +12,6 @@
 #include "io/document/parse.hpp"
 #include "io/robots/serial_file.hpp"
 #include "server/robots.hpp"
-#include "sinew/io/robot_file.hpp"
 
 namespace sinew::server::device {
 namespace {
@@ -97,10 +96,10 @@ struct RobotFile {
   std::string text, file_text;  ///< with that motor, and as it was read
   Document document;
 };
-Expected<RobotFile> read_file(const std::string& robot, bool is_demo) {
+Expected<RobotFile> read_file(const std::string& robot, std::span<const Member> settings, bool is_demo) {
   if (robot.empty())
     return failure("missing_robot", "", "name the robot of the device: sinew serve nottingham-tpcj --demo");
-  auto text = read_robot_text(robot);
+  auto text = changed_text(robot, settings);
   if (!text) return tl::unexpected(text.error());
   auto document = parse_yaml(*text, robot);
   if (!document) return tl::unexpected(document.error());
@@ -128,7 +127,7 @@ Device::Device(std::string text, std::string file_text, const DeviceOptions& opt
       panel_(arm, std::move(judge), link_, recording_, system_clock(plain(arm.robot().name))) {}
 
 Expected<std::unique_ptr<Device>> Device::open(const std::string& robot, const DeviceOptions& options) {
-  auto file = read_file(robot, options.is_demo);
+  auto file = read_file(robot, options.settings, options.is_demo);
   if (!file) return tl::unexpected(file.error());
   auto arm = Arm::read(file->document, options.stage_motor);
   if (!arm) return tl::unexpected(arm.error());

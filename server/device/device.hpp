@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "feed.hpp"
 #include "panel/panel.hpp"
@@ -17,6 +18,7 @@
 #include "recording.hpp"
 #include "server/reply.hpp"
 #include "simulated.hpp"
+#include "sinew/io/node.hpp"
 #include "wire/link.hpp"
 
 namespace sinew::server::device {
@@ -27,6 +29,7 @@ struct DeviceOptions {
   int baud = 1'000'000;
   std::string folder = "sinew-recordings";
   std::optional<TendonMotor> stage_motor;  ///< none: the stage counts as the tendons do
+  std::vector<Member> settings;            ///< what is changed in the robot, by the paths of its file
   bool is_wanted() const { return is_demo || !port.empty(); }
 };
 
@@ -41,7 +44,7 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  /// Of its robot's file, with the motor that a demonstration adds.
+  /// Of its robot's file, with what settings change and the motor that a demonstration adds.
   const std::string& robot_text() const { return text_; }
   Reply describe(const HandleOf& handle_of);
   /// @param call the last part of the path: `arm`

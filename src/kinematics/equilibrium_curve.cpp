@@ -17,7 +17,8 @@ bool is_answerable(const Robot& robot, const CurveOptions& how) {
   if (!how.inputs.empty() && how.inputs.size() != inputs) return false;
   if (how.pose && (inputs != 6 || has_ties(robot) || !how.inputs.empty())) return false;
   if (how.pose && !SE3<double>::from(*how.pose).p.allFinite()) return false;
-  return how.added_wrench.allFinite() && how.lowest <= 0 && how.highest >= 0 && how.max_points > 0;
+  return how.added_wrench.allFinite() && how.lowest <= 0 && how.highest >= 0 && how.max_points > 0 &&
+         how.max_total_points > 0;
 }
 
 }  // namespace
@@ -60,6 +61,8 @@ std::string_view to_string(CurveEnd end) noexcept {
       return "stalled";
     case CurveEnd::stopped:
       return "stopped";
+    case CurveEnd::not_followed:
+      return "not_followed";
   }
   return "";
 }

@@ -31,6 +31,8 @@ void read_extent(Context& context, Options& how) {
 
 /// Why the first curve, which ends so, does not come to its target; @param fold where it folds, if it does.
 std::string curve_in_words(CurveEnd end, const double* fold);
+/// That at so many bifurcations other curves were not looked for, since all have so many points already.
+std::string unfollowed_in_words(std::size_t bifurcations, std::size_t points);
 /// Notes it where a curve was stopped.
 void note_stopped_curve(Context& context);
 
@@ -66,8 +68,13 @@ void put_curves(Context& context, const std::vector<Curve>& curves, WhereOf&& wh
   Value &answer = context.answer, equilibria = Value::list(), list = Value::list();
   bool arrives = false, is_stopped = false;
   double worst = 0;
+  std::size_t points = 0, unfollowed = 0;
   for (std::size_t c = 0; c < curves.size(); ++c) {
     is_stopped = is_stopped || curves[c].end == CurveEnd::stopped;
+    if (curves[c].end == CurveEnd::not_followed)
+      ++unfollowed;
+    else
+      points += curves[c].points.size();
     for (std::size_t k = 0; k < curves[c].points.size(); ++k) {
       const auto& point = curves[c].points[k];
       worst = std::max(worst, point.residual);
@@ -88,6 +95,7 @@ void put_curves(Context& context, const std::vector<Curve>& curves, WhereOf&& wh
   if (!arrives)
     answer["message"] = curve_in_words(first.end, fold == first.points.end() ? nullptr : &fold->parameter);
   if (is_stopped) note_stopped_curve(context);
+  if (unfollowed > 0) context.add_message(unfollowed_in_words(unfollowed, points));
   answer["residual"] = worst;
   answer["equilibria"] = std::move(equilibria);
   answer["curves"] = std::move(list);

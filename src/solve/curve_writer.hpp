@@ -20,13 +20,14 @@ enum class CurveMark {
   stability,        ///< gained or lost with neither
 };
 
-enum class CurveStop { left_range, closed, max_points, far, stopped, stuck };
+enum class CurveStop { left_range, closed, max_points, far, stopped, stuck, not_followed };
 
 struct CurveRange {
   double lowest = 0, highest = 1;  ///< of λ
   int max_points = 500;            ///< on each curve
   bool is_backward = false;
   bool follows_branches = false;
+  int max_total_points = 200000;  ///< no other curve is begun where all have as many
 };
 
 /// Follows curves and writes down what is met. The problem is asked also for
@@ -78,7 +79,6 @@ class CurveWriter {
 
   static constexpr double first_stride = 0.01, longest_stride = 0.05, shortest_stride = 1e-7;
   static constexpr double null_tolerance = 0.1;
-  static constexpr int max_curves = 64;
 
   /// Where the tracer is. @param unstable directions
   Point point(CurveMark mark, int unstable) const {
@@ -235,7 +235,16 @@ class CurveWriter {
     return false;
   }
 
-  /// The curves that leave the first one there. Where that is to stop, one that has not left it stands for
+  /// Whether no other curve is to be begun, and why: on request, or since memory is not endless.
+  std::optional<CurveStop> why_no_more(const std::vector<Curve>& curves) const {
+    if (stop_.stop_requested()) return CurveStop::stopped;
+    std::size_t points = 0;
+    for (const Curve& curve : curves) points += curve.points.size();
+    return points < static_cast<std::size_t>(how_.max_total_points) ? std::nullopt
+                                                                    : std::optional(CurveStop::not_followed);
+  }
+
+  /// The curves that leave the first one there. Where no more are begun, one that has not left it stands for
   /// those that were not looked for.
   void leave(Branching& one, std::vector<Curve>& curves) {
     std::vector<Vec<double, N>> begun;
@@ -243,10 +252,9 @@ class CurveWriter {
     curve.from_curve = 0;
     curve.from_point = one.point;
     for (const Step& direction : one.directions) {
-      if (curves.size() >= max_curves) return;
-      if (stop_.stop_requested()) {
+      if (const auto why = why_no_more(curves)) {
         curve.points.push_back(curves[0].points[static_cast<std::size_t>(one.point)]);
-        curve.end = problem_.end_of(CurveStop::stopped);
+        curve.end = problem_.end_of(*why);
         curves.push_back(std::move(curve));
         return;
       }

@@ -111,6 +111,34 @@ TEST(Texts, BashCompletesVerbsOptionsAndOperands) {
   EXPECT_EQ(completed("completion z", 2), "zsh\n");
 }
 
+TEST(Texts, BashCompletesWordsOfOptions) {
+  const Scratch here;
+  const auto completed = [&](const std::string& words, int at) {
+    return run_shell("bash -c 'source <(sinew completion bash); COMP_WORDS=(sinew " + words +
+                         "); COMP_CWORD=" + std::to_string(at) + "; _sinew; echo ${COMPREPLY[@]}'",
+                     here.path())
+        .out;
+  };
+  EXPECT_EQ(completed("forward 3pfs-g2 --want st", 4), "stiffness stability\n");
+  EXPECT_EQ(completed("forward 3pfs-g2 --want stiffness,pose,ma", 4), "stiffness,pose,margins\n");
+  EXPECT_EQ(completed("forward 3-rfr --model p", 4), "prb pcc\n");
+  EXPECT_EQ(completed("forward 3-rfr --model =", 4), completed("forward 3-rfr --model \"\"", 4));
+  EXPECT_EQ(completed("forward 3-rfr --model = pr", 5), "prb\n");
+  EXPECT_EQ(completed("forward 3-rfr --theta-is t", 4), "tangent\n");
+  EXPECT_EQ(completed("plot 3-rfr --as 3", 4), "3d\n");
+  EXPECT_EQ(completed("sweep 3-rfr-workspace --isa n", 4), "native\n");
+  EXPECT_EQ(completed("forward 3-rfr --as 3", 4), "\n");  // it has no such option
+  EXPECT_EQ(completed("forward 3-rfr --model prb --wan", 5), "--want\n");
+  // they are those that plot draws
+  std::string kinds = completed("plot 3-rfr --as \"\"", 4), drawn;
+  const std::string said = run_command({"plot", "3-rfr", "--as", "x", "-o", "x.svg"}, here.path()).err;
+  for (const std::string word : {"line", "points", "map", "contour", "sides", "3d", "diagram"}) {
+    drawn += word + (word == "diagram" ? "\n" : " ");
+    EXPECT_NE(said.find(word), std::string::npos) << said;
+  }
+  EXPECT_EQ(kinds, drawn);
+}
+
 TEST(Texts, FishCompletesVerbsOptionsAndOperands) {
   if (!has_program("fish")) GTEST_SKIP() << "there is no fish";
   const Scratch here;
@@ -129,6 +157,10 @@ TEST(Texts, FishCompletesVerbsOptionsAndOperands) {
   EXPECT_EQ(completed("sinew forward 3pfs-g"), "3pfs-g1 3pfs-g2 ");
   EXPECT_EQ(completed("sinew check mi"), "mine.yaml ");
   EXPECT_EQ(completed("sinew list r"), "robots ");
+  EXPECT_EQ(completed("sinew forward 3-rfr --model pr"), "prb ");
+  EXPECT_EQ(completed("sinew forward 3-rfr --model=pr"), "--model=prb ");
+  EXPECT_EQ(completed("sinew forward 3-rfr --want stiffness,ma"), "stiffness,margins ");
+  EXPECT_EQ(completed("sinew plot 3-rfr --as con"), "contour ");
 }
 
 TEST(Texts, ZshCompletesVerbsOptionsAndOperands) {
@@ -154,6 +186,9 @@ zpty -r -m z seen "*$1*$2*" && print found
   EXPECT_TRUE(completes("sinew inv", "erse"));
   EXPECT_TRUE(completes("sinew inverse 3-rfr --bend", "ing"));
   EXPECT_TRUE(completes("sinew new hexa", "pod"));
+  EXPECT_TRUE(completes("sinew forward 3-rfr --model pr", "b"));
+  EXPECT_TRUE(completes("sinew forward 3-rfr --want stiffness,ma", "rgins"));
+  EXPECT_TRUE(completes("sinew plot 3-rfr --as con", "tour"));
 }
 
 TEST(Texts, ThePageForManHasNoMistakesOfTroff) {

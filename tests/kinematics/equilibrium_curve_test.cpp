@@ -241,5 +241,28 @@ TEST(EquilibriumCurve, RefusesWhatIsNoCurve) {
   EXPECT_EQ(equilibrium_curves(rods, how, work).at(0).points.size(), 2u);
 }
 
+/// One bifurcation a curve of a single point, in place of what would leave there.
+TEST(EquilibriumCurve, SaysWhichBifurcationsItDidNotLeave) {
+  const Robot robot = builtin("3pfs-g2");
+  Workspace work(robot);
+  const double home = std::get<SpatialPose>(sinew::home(robot)).position[2];
+  ASSERT_TRUE(inverse_equilibrium(robot, IndependentPose{home, 0, 0}, {}, work).is_solved());
+  CurveOptions how;
+  how.added_wrench = along_z(-116);
+  how.follows_branches = true;
+  how.max_total_points = 1;
+  const auto curves = equilibrium_curves(robot, how, work);
+  const auto met = events_of(curves.at(0), CurveEvent::bifurcation);
+  ASSERT_EQ(curves.size(), 1 + met.size());
+  for (std::size_t k = 1; k < curves.size(); ++k) {
+    EXPECT_EQ(to_string(curves[k].end), "not_followed");
+    EXPECT_EQ(curves[k].points.size(), 1u);
+    EXPECT_EQ(&curves[0].points[static_cast<std::size_t>(curves[k].from_point)], met[k - 1]);
+  }
+  ASSERT_TRUE(inverse_equilibrium(robot, IndependentPose{home, 0, 0}, {}, work).is_solved());
+  how.max_total_points = 0;
+  EXPECT_TRUE(equilibrium_curves(robot, how, work).empty());
+}
+
 }  // namespace equilibrium_curve_test
 }  // namespace sinew::test

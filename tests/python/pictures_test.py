@@ -1,4 +1,6 @@
 """Pictures of answers: in a notebook, in a file, by matplotlib, in the viewer."""
+import array
+import json
 import os
 import re
 import subprocess
@@ -160,8 +162,21 @@ class Viewer(unittest.TestCase):
                     self.assertEqual(reply.status, 200)
                 self.assertIn(view.url, view._repr_html_())
             self.assertIsNotNone(view._process.poll())
-        with self.assertRaisesRegex(sinew.InputError, "set"):
-            sinew.load("3-rfr").set({"legs[0].link.length": 0.18}).view()
+
+    def test_serves_the_robot_that_was_changed(self):
+        try:
+            _view.command()
+        except sinew.InputError as error:
+            self.skipTest(str(error))
+        robot = sinew.load("3-rfr").set({"legs[0].link.length": 0.18, "legs[1].link.length": "170 mm"})
+        robot = robot.set({"legs[2].base.point": array.array("d", [0.17, -0.09]), "platform.home": {"x": 0.001, "y": 0, "phi": 0}})
+        with robot.view(open_browser=False) as view, urllib.request.urlopen(view.url + "api/robots") as reply:
+            opened = json.load(reply)["opened"]
+        self.assertEqual(opened["name"], "3-rfr")
+        self.assertEqual(opened["changed"]["set"][:2], ["legs[0].link.length=0.18", "legs[1].link.length=170 mm"])
+        shown = sinew.load(opened["changed"]["text"]).describe().to_dict()
+        self.assertEqual(shown["legs"][0]["link"]["length"], 0.18)
+        self.assertEqual(shown, robot.describe().to_dict())
 
     def test_in_a_notebook_it_may_be_framed(self):
         try:

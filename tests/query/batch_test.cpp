@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <random>
 #include <thread>
 #include <vector>
@@ -687,6 +688,40 @@ TEST(Batch, TellsUnitsOfBlocks) {
   EXPECT_EQ(unit("two-segment", pulled, "answers_by_wrench"), "m/N, 1/N");
 }
 
+/// A word of `want` that changes nothing of what comes out is a slip.
+TEST(Batch, RefusesWantsThatNoOutputIsOf) {
+  const auto of = [](const char* robot, const std::string& question, const std::string& words,
+                     const std::string& places) {
+    const auto batch = prepared(
+        robot, R"({"query":")" + question + R"(,"want":[)" + words + R"(],"outputs":{)" + places + "}}");
+    return batch ? "" : to_string(batch.error());
+  };
+  const std::string rods = R"(forward","inputs":"$l")", arm = R"(forward","tensions":"$t")";
+  EXPECT_EQ(
+      of("3pfs-g2", rods, R"("stiffness")", R"("n":"pose.position")"),
+      "want: no output is of what stiffness answers; name one, such as stiffness, or leave the word out "
+      "[no_effect]");
+  EXPECT_EQ(
+      of("3pfs-g2", rods, R"("stiffness","margins")", R"("n":"margins.fold")"),
+      "want: no output is of what stiffness answers; name one, such as stiffness, or leave the word out "
+      "[no_effect]");
+  EXPECT_EQ(of("3-rfr", rods, R"("shape")", R"("n":"pose.x")"),
+            "want: no output is of what shape answers; name one, or leave the word out [no_effect]");
+  EXPECT_EQ(of("3pfs-g2", rods, R"("stiffness","margins")", R"("n":"margins.fold","m":"stiffness[0][0]")"),
+            "");
+  EXPECT_EQ(of("3-rfr", rods, R"("shape")", R"("n":"lines[0][0][0]")"), "");
+  EXPECT_EQ(of("two-segment", arm, R"("stability")", R"("n":"buckling_margin")"), "");
+  EXPECT_EQ(of("two-segment", arm, R"("margins")", R"("n":"buckling_margin")"), "");
+  // there by themselves; looked at by the status
+  EXPECT_EQ(of("3-rfr", rods, R"("pose","legs")", R"("n":"residual")"), "");
+  EXPECT_EQ(of("3-rfr", rods, R"("velocity","sensitivity")", R"("n":"pose.x")"), "");
+  const Batch singular = prepared("3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":0,"phi":"$phi"},)"
+                                           R"("want":["velocity"],"outputs":{"l":"inputs"}})")
+                             .value();
+  EXPECT_EQ(run(singular, {0.04, std::numbers::pi / 3}).statuses[0],
+            static_cast<std::uint8_t>(Status::singular));
+}
+
 /// A place that goes with a word of `want` needs no more than its name.
 TEST(Batch, WantsWhatItsOutputsGoWith) {
   struct Named {
@@ -696,9 +731,10 @@ TEST(Batch, WantsWhatItsOutputsGoWith) {
   for (const auto& [robot, question, place, numbers] :
        {Named{"3pfs-g2", R"({"query":"forward","inputs":"$l")", "stiffness[0][0]", {0.44, 0.42, 0.41}},
         Named{"3pfs-g2",
-              R"({"query":"forward","inputs":"$l","want":["margins"])",
-              "legs[1].force[2]",
+              R"({"query":"forward","inputs":"$l","want":["legs"])",
+              "margins.fold",
               {0.44, 0.42, 0.41}},
+        Named{"3pfs-g2", R"({"query":"forward","inputs":"$l")", "legs[1].force[2]", {0.44, 0.42, 0.41}},
         Named{"3pfs-g2",
               R"({"query":"forward","inputs":"$l","want":["legs"])",
               "pose.position[2]",

@@ -119,6 +119,20 @@ void keep_pictures(Desk& desk, const json& frame) {
             list["recordings"].end());
 }
 
+/// What moves and what the page shows are one robot.
+TEST(DeviceHttp, ItsRobotMayBeChanged) {
+  Options options = with_demo();
+  options.settings = {{.key = "tolerance", .value = make_node("0.2 mm")}};
+  Desk desk(options);
+  const json opened = json::parse(desk.get("/api/robots"))["opened"],
+             device = json::parse(desk.get("/api/device"))["device"];
+  EXPECT_EQ(json::parse(desk.post("/api/robot", opened["changed"]["text"], as_yaml))["robot"],
+            device["robot"]);
+  const json answer = json::parse(
+      desk.post("/api/query?robot=" + device["robot"].get<std::string>(), R"({"query": "describe"})"));
+  EXPECT_EQ(answer["tolerance"], 0.0002);
+}
+
 TEST(DeviceHttp, TwoPagesAtOneDevice) {
   Desk desk(with_demo());
   Events first(desk.port), second(desk.port);

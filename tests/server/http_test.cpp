@@ -9,6 +9,7 @@
 #include <random>
 #include <thread>
 
+#include "io/document/parse.hpp"
 #include "sanitizers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"
@@ -51,6 +52,42 @@ TEST(Http, RobotsAndTheirTextsAreListed) {
               read_robot_text(robot["name"].get<std::string>()).value());
   }
   EXPECT_EQ(json::parse(desk.get("/api/version"))["protocol"], 1);
+}
+
+/// The page opens with the text that settings change, and is told what they are.
+TEST(Http, TheRobotOfTheCommandLineMayBeChanged) {
+  Options options;
+  options.robot = "3-rfr";
+  options.settings = {{.key = "legs[0].link.length", .value = make_node("180 mm")},
+                      {.key = "legs[0].base.point", .value = parse_yaml("[-0.1, 0]", "").value().root}};
+  Desk desk(options);
+  const json opened = json::parse(desk.get("/api/robots"))["opened"];
+  EXPECT_EQ(opened["name"], "3-rfr");
+  EXPECT_EQ(opened["text"], read_robot_text("3-rfr").value());
+  EXPECT_EQ(opened["changed"]["set"],
+            json::array({"legs[0].link.length=180 mm", "legs[0].base.point=[-0.1, 0]"}));
+  const std::string handle =
+      json::parse(desk.post("/api/robot", opened["changed"]["text"], as_yaml))["robot"];
+  const json answer = json::parse(desk.post("/api/query?robot=" + handle, R"({"query": "describe"})"));
+  EXPECT_EQ(answer["legs"][0]["link"]["length"], 0.18);
+  Session session = Session::open("3-rfr").value();
+  EXPECT_EQ(answer,
+            json::parse(session.answer(R"({"query": "describe", "set": {"legs[0].link.length": "180 mm",)"
+                                       R"( "legs[0].base.point": [-0.1, 0]}})")));
+  EXPECT_TRUE(json::parse(Desk().get("/api/robots"))["opened"].is_null());
+}
+
+TEST(Http, SettingsThatMakeNoRobotAreRefused) {
+  Options options;
+  options.port = 0;
+  options.robot = "3-rfr";
+  options.settings = {{.key = "legs[0].link.length", .value = make_node("180 kg")}};
+  const auto bad_unit = Server::open(options);
+  ASSERT_FALSE(bad_unit);
+  EXPECT_EQ(bad_unit.error().front().code, "wrong_dimension");
+  options.settings = {{.key = "legs[0].link.lenght", .value = make_node(0.18)}};
+  ASSERT_FALSE(Server::open(options));
+  EXPECT_EQ(Server::open(options).error().front().where.find("yaml:"), std::string::npos);
 }
 
 TEST(Http, ErrorsOfAFileHaveTheirPlaces) {

@@ -286,6 +286,22 @@ TEST(Curves, StopBetweenTwoCurvesAsWell) {
   EXPECT_EQ(curves[1].from_point, all[1].from_point);
 }
 
+/// No curve is left out without a word: one of a single point stands where others would leave.
+TEST(Curves, AreToldWhereTheyAreTooManyToFollow) {
+  CurveRange range{0, 1, 500, false, true};
+  const auto all = curves_of(Problem<2>(pitchfork, Two::Zero()), range);
+  ASSERT_EQ(all.size(), 3);
+  range.max_total_points = static_cast<int>(all[0].points.size()) + 1;
+  const auto some = curves_of(Problem<2>(pitchfork, Two::Zero()), range);
+  ASSERT_EQ(some.size(), 3);  // the second one is begun, and followed to its end
+  EXPECT_EQ(some[1].end, all[1].end);
+  EXPECT_EQ(some[1].points.size(), all[1].points.size());
+  EXPECT_EQ(some[2].end, CurveStop::not_followed);
+  ASSERT_EQ(some[2].points.size(), 1);
+  EXPECT_EQ(some[2].points[0].event, CurveMark::bifurcation);
+  EXPECT_EQ(some[2].from_point, all[2].from_point);
+}
+
 TEST(GrowingLoads, SayWhatEndsThem) {
   const Growth fold = grown(Problem<1>(circle, on_circle));
   EXPECT_EQ(fold.end, GrowthEnd::fold);

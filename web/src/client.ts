@@ -51,7 +51,11 @@ function refusal(reply: Response, text: string): Refused {
 }
 
 export const version = async (): Promise<Json> => JSON.parse(await call('/api/version'));
-export const robots = async (): Promise<{robots: Shipped[]; opened: {name: string; text: string} | null}> => JSON.parse(await call('/api/robots'));
+/** How the command line of the server changes the file: the text of that, and its `--set`. */
+export interface Changed { text: string; set: string[] }
+/** The file that the server was started with. */
+export interface Opened { name: string; text: string; changed?: Changed }
+export const robots = async (): Promise<{robots: Shipped[]; opened: Opened | null}> => JSON.parse(await call('/api/robots'));
 export const robotText = (name: string): Promise<string> => call(`/api/robots/${encodeURIComponent(name)}`);
 
 export const plans = async (): Promise<{plans: Json[]}> => JSON.parse(await call('/api/plans'));

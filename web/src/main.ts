@@ -3,7 +3,7 @@ import './app.css';
 import './operate/operate.css';
 import {AnswerPanel, withUnit} from './answer';
 import {canPlace, fromShape, type Held, heldIn} from './arm';
-import {type Json, Lost, Newest, Refused, Robot, plan as planOf, plans, robots, robotText, type Shipped, version} from './client';
+import {type Changed, type Json, Lost, Newest, type Opened, Refused, Robot, plan as planOf, plans, robots, robotText, type Shipped, version} from './client';
 import {copy} from './clipboard';
 import {command} from './command';
 import {Connection} from './connection';
@@ -87,7 +87,7 @@ class Page {
   private device: DeviceInfo | null = null;
   private readonly recordings = new RecordingsDialog((name) => void this.replay(name), () => byId<HTMLInputElement>('chooser').click());
   private replaying = 0;  // how often a recording was asked for
-  private openedName = '';  // of the file that the server was started with
+  private opened: Opened | null = null;  // the file that the server was started with
   private readonly screens = new Screens((name, isAsWas, before) => this.turnScreen(name, isAsWas, before));
   private readonly picker = byId<HTMLSelectElement>('robot');
   private readonly against = byId<HTMLSelectElement>('against');
@@ -103,7 +103,7 @@ class Page {
     const link = new URLSearchParams(location.hash.slice(1) || location.search), wanted = link.get('robot');
     const [says, {robots: shipped, opened}, {plans: listed}, device, recorded] = await Promise.all([version(), robots(), plans(), findDevice(), listRecordings()]);
     if (says.protocol !== protocol) return this.shell.refuse(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
-    [this.shipped, this.device, this.openedName] = [shipped, device, opened?.name ?? ''];
+    [this.shipped, this.device, this.opened] = [shipped, device, opened];
     this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link(), turned: () => this.turnSource(), plans: () => listed, way: (plan, to) => this.showRecorded(plan, to)}, device);
     byId('recordings').hidden = !recorded || (recorded.length === 0 && !device);
     for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
@@ -252,7 +252,7 @@ class Page {
 
   private async drive(plan: Plan): Promise<void> {
     const opened = this.device ? (await robots()).opened : null, {name, text} = opened ?? plan.robot;
-    if (this.source?.name !== name || this.source.isModified) await this.open(name, text, new URLSearchParams({screen: 'operate'}));
+    if (this.source?.name !== name || (this.source.isModified && this.source.text !== opened?.changed?.text)) await this.open(name, text, new URLSearchParams({screen: 'operate'}));
     this.screens.show('operate');
     this.panel.load(wayOf(plan));
   }
@@ -325,7 +325,7 @@ class Page {
   private offerPanel(link: URLSearchParams | null): void {
     const {robot, described, source, state, screens} = this;
     if (described!.isSerial) {
-      const isOfDevice = !!this.device && (robot!.handle === this.device.robot || (source!.name === this.openedName && !source!.isModified));
+      const isOfDevice = !!this.device && (robot!.handle === this.device.robot || (source!.name === this.opened?.name && !source!.isModified));
       this.panel.use({robot: robot!, described: described!, source: source!, inputs: [...state.inputs]}, isOfDevice, link);
       screens.offer('operate');
       if (link?.get('screen') === 'operate' || (isOfDevice && link && !link.has('screen') && !link.has('inputs'))) screens.show('operate', false);
@@ -352,7 +352,7 @@ class Page {
     const run = ++this.opening;
     await this.guarded(async () => {
       try {
-        const opened = this.ships(name) ? {name, text: await robotText(name)} : (await robots()).opened, draft = drafts.of(name);
+        const opened = this.ships(name) ? {name, text: await robotText(name)} : (this.opened = (await robots()).opened), draft = drafts.of(name);
         if (run !== this.opening) return;
         if (opened?.name === name) await this.open(name, opened.text, link);
         else if (name === this.source?.name) await this.open(name, this.source.base, link);
@@ -383,14 +383,16 @@ class Page {
 
   /** @param text of the file, which a link and what was written here before may have changed */
   private async open(name: string, text: string, link: URLSearchParams): Promise<void> {
+    const changed = this.changedOf(name, text);
+    if (changed && !link.has('set') && !link.has('modified')) for (const set of changed.set) link.append('set', set);
     const run = ++this.opening, draft = drafts.of(name), isGoing = draft?.key === keyOf(link) && (draft.base === text || link.has('modified'));
-    const changed = isGoing ? draft.shown : await this.textOf(text, link);
+    const shown = isGoing ? draft.shown : changed && keyOf(link) === changed.set.join('\n') ? changed.text : await this.textOf(text, link);
     if (run !== this.opening) return;
-    if (changed === null) {
+    if (shown === null) {
       this.shell.say(`the link shows another ${name} than is here: open its file`);
       return this.start.show(this.shipped);
     }
-    const robot = await Robot.open(changed), described = await describe(robot), source = await sourceOf(name, text, changed, described.answer);
+    const robot = await Robot.open(shown), described = await describe(robot), source = await sourceOf(name, text, shown, described.answer, changed);
     if (run !== this.opening) return;
     if (![...this.picker.options].some((option) => option.value === name)) this.picker.add(new Option(name, name));
     [this.stage.ghost, this.rival] = [null, null];
@@ -398,6 +400,12 @@ class Page {
     this.history.clear();
     this.use(source, robot, described, link);
     this.file.show(source, isGoing ? draft : null, isGoing ? null : draft);
+  }
+
+  /** How the server's command line changes this file, if it does. */
+  private changedOf(name: string, base: string): Changed | null {
+    const {opened} = this;
+    return opened?.name === name && opened.text === base ? opened.changed ?? null : null;
   }
 
   /** The robot's text that a link means; null where it is not to be had. */
@@ -410,7 +418,7 @@ class Page {
 
   /** Another text of the same file: its state stays. */
   private async edit(robot: Robot): Promise<void> {
-    const {opening} = this, {name, base} = this.source!, described = await describe(robot), source = await sourceOf(name, base, robot.text, described.answer);
+    const {opening} = this, {name, base} = this.source!, described = await describe(robot), source = await sourceOf(name, base, robot.text, described.answer, this.changedOf(name, base));
     if (opening !== this.opening || robot.text !== this.file.text) return;  // another robot, or more was written
     this.use(source, robot, described, null);
     this.file.shown(source);
@@ -418,7 +426,7 @@ class Page {
 
   /** The file itself has another text now; the robot that is shown has not. */
   private async rebase(base: string): Promise<void> {
-    const {opening} = this, {name, text} = this.source!, source = await sourceOf(name, base, text, this.described!.answer);
+    const {opening} = this, {name, text} = this.source!, source = await sourceOf(name, base, text, this.described!.answer, this.changedOf(name, base));
     if (opening !== this.opening || text !== this.source!.text) return;
     this.source = source;
     this.file.shown(source);
@@ -473,7 +481,9 @@ class Page {
   private async look(): Promise<void> {
     if (!this.source || this.ships(this.source.name)) return;
     const {opened} = await robots();
-    if (opened?.name === this.source?.name) this.file.changedOnDisk(opened!.text);
+    if (opened?.name !== this.source?.name) return;
+    this.opened = opened;
+    this.file.changedOnDisk(opened!.text);
   }
 
   /** A link that was put into the address by hand; what the page writes there may have come between. */

@@ -1,5 +1,5 @@
 // What is open: a name, the text that the name stands for, and how the robot that is shown differs from it.
-import {type Json, Refused, Robot} from './client';
+import {type Changed, type Json, Refused, Robot} from './client';
 import type {Change} from './yaml';
 
 /** Short and the same for the same text. */
@@ -57,10 +57,11 @@ export class Source {
 
 export const keyOf = (link: URLSearchParams): string => (link.get('modified') ?? '') + link.getAll('set').join('\n');
 
-export const changesIn = (link: URLSearchParams): Change[] => link.getAll('set').map((set) => {
+const changeOf = (set: string): Change => {
   const at = set.indexOf('=');
   return [set.slice(0, at), set.slice(at + 1)];
-});
+};
+export const changesIn = (link: URLSearchParams): Change[] => link.getAll('set').map(changeOf);
 
 /** A value as a query has it. */
 const valueOf = (text: string): string | number | boolean => (text === 'true' || text === 'false' ? text === 'true' : text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : text);
@@ -76,9 +77,13 @@ async function isSaid(base: string, changes: Change[], description: Json): Promi
   }
 }
 
-/** @param description of the robot that the text is of */
-export async function sourceOf(name: string, base: string, text: string, description: Json): Promise<Source> {
+/**
+ * @param description of the robot that the text is of
+ * @param changed what the server knows of changes of this file
+ */
+export async function sourceOf(name: string, base: string, text: string, description: Json, changed: Changed | null = null): Promise<Source> {
   if (text === base) return new Source(name, base, text, []);
+  if (text === changed?.text) return new Source(name, base, text, changed.set.map(changeOf));
   const {changesOf} = await import('./editor.js'), changes = changesOf(base, text);
   return new Source(name, base, text, changes && (changes.length === 0 || await isSaid(base, changes, description)) ? changes : null);
 }

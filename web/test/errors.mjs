@@ -99,6 +99,27 @@ export async function disk(browser) {
   rmSync(folder, {recursive: true});
 }
 
+/** The robot that --set changes is shown, its commands and links say so, and its file can be taken as it is. */
+export async function changed(browser) {
+  const {server, url} = await serve('3-rfr', '--set', 'legs[0].link.length=180 mm'), {page, done} = await blank(browser);
+  await page.goto(url);
+  await settled(page, 0);
+  await rested(page);
+  await page.locator('#robot option:checked', {hasText: '(modified)'}).waitFor({state: 'attached'});
+  const command = () => page.locator('#command').innerText();
+  assert.match(await command(), /^sinew forward 3-rfr .*--set "legs\[0\]\.link\.length=180 mm"/);
+  const shown = await numbers(page);
+  await page.reload();
+  await settled(page, 0);
+  await rested(page);
+  assert.equal(await numbers(page), shown, 'the link leads to the same robot');
+  await tab(page, 'File');
+  await then(page, () => page.locator('#file').getByRole('button', {name: 'Reload'}).click());
+  assert.doesNotMatch(await command(), /--set/);
+  await done();
+  server.kill('SIGINT');
+}
+
 /** No WebGL: the same picture by simpler means, and a word about it. */
 export async function no_webgl(_, url) {
   const browser = await launch({hasWebGL: false}), {page, done} = await open(browser, url, '3pfs-g2');

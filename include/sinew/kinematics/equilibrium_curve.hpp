@@ -25,6 +25,8 @@ struct CurveOptions {
   bool is_backward = false;  ///< begins with a falling parameter
   /// The curves that leave a bifurcation are followed too; those that leave these are not.
   bool follows_branches = false;
+  /// No other curve is begun where all have as many points; those left out are told by `not_followed`.
+  int max_total_points = 200000;
 };
 
 /// What is special about a point of a curve.
@@ -56,11 +58,13 @@ enum class CurveEnd {
   left_range,  ///< of the parameter
   closed,      ///< it came back to where it began
   max_points,
-  straight,  ///< a rod is pulled straight
-  sharp,     ///< the rods bend more sharply than is resolved
-  far,       ///< a rod has grown to ten times what any was
-  stalled,   ///< none of these, and no step however short succeeds
-  stopped,   ///< on request
+  straight,      ///< a rod is pulled straight
+  sharp,         ///< the rods bend more sharply than is resolved
+  far,           ///< a rod has grown to ten times what any was
+  stalled,       ///< none of these, and no step however short succeeds
+  stopped,       ///< on request
+  not_followed,  ///< all curves have `max_total_points`: its one point is where this one, or more, would
+                 ///< leave
 };
 /// Its name: `left_range`.
 SINEW_API std::string_view to_string(CurveEnd end) noexcept;

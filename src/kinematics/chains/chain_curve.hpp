@@ -18,6 +18,7 @@ struct ChainCurveOptions {
   int max_points = 500;            ///< on each curve
   bool is_backward = false;        ///< begins with a falling parameter
   bool follows_branches = false;   ///< the curves that leave a bifurcation of the first are followed, too
+  int max_total_points = 200000;   ///< no other curve is begun where all have as many
 };
 
 template <class Space>

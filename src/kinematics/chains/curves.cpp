@@ -82,8 +82,9 @@ class ChainProblem : public LoadProblem<Space> {
   }
   bool is_far() const { return false; }  // chains are as long as they are
   CurveEnd end_of(CurveStop stop) const {
-    constexpr CurveEnd ends[] = {CurveEnd::left_range, CurveEnd::closed,  CurveEnd::max_points,
-                                 CurveEnd::far,        CurveEnd::stopped, CurveEnd::stalled};
+    constexpr CurveEnd ends[] = {CurveEnd::left_range,  CurveEnd::closed,  CurveEnd::max_points,
+                                 CurveEnd::far,         CurveEnd::stopped, CurveEnd::stalled,
+                                 CurveEnd::not_followed};
     return ends[static_cast<int>(stop)];
   }
 
@@ -98,7 +99,8 @@ template <class Space>
 bool is_answerable(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                    const ChainCurveOptions<Space>& how) {
   if (!fits(robot, state)) return false;
-  if (!how.added_wrench.allFinite() || !(how.lowest <= 0) || !(how.highest >= 0) || how.max_points <= 0)
+  if (!how.added_wrench.allFinite() || !(how.lowest <= 0) || !(how.highest >= 0) || how.max_points <= 0 ||
+      how.max_total_points <= 0)
     return false;
   if (how.hold.empty()) return !how.added_wrench.isZero(0);
   if (how.hold.size() != state.hold.size() || !check_hold(robot, std::span(how.hold)).ok()) return false;
@@ -123,7 +125,8 @@ std::vector<ChainCurve<Space>> chain_curves(const ChainLegs<Space>& robot, const
   if (!memory.group.stiffness().allFinite()) return {};
   using Problem = ChainProblem<Space>;
   Tracer<Problem> tracer(Problem(robot, memory.group, how), 0, memory.places[0], memory.places[1]);
-  const CurveRange range{how.lowest, how.highest, how.max_points, how.is_backward, how.follows_branches};
+  const CurveRange range{how.lowest,      how.highest,          how.max_points,
+                         how.is_backward, how.follows_branches, how.max_total_points};
   return CurveWriter<Problem>(tracer, range, work.stop).run();
 }
 

@@ -241,7 +241,8 @@ std::vector<EquilibriumCurve> curves_of(const Robot& robot, const CurveOptions& 
                                .highest = how.highest,
                                .max_points = how.max_points,
                                .is_backward = how.is_backward,
-                               .follows_branches = how.follows_branches};
+                               .follows_branches = how.follows_branches,
+                               .max_total_points = how.max_total_points};
   if (!how.inputs.empty()) {
     own.hold = hold_at(*held, how.inputs);
     if (own.hold.empty()) return {};

@@ -101,8 +101,9 @@ class RodProblem : public LoadProblem<Spatial> {
     return false;
   }
   CurveEnd end_of(CurveStop stop) const {
-    constexpr CurveEnd ends[] = {CurveEnd::left_range, CurveEnd::closed,  CurveEnd::max_points,
-                                 CurveEnd::far,        CurveEnd::stopped, CurveEnd::stalled};
+    constexpr CurveEnd ends[] = {CurveEnd::left_range,  CurveEnd::closed,  CurveEnd::max_points,
+                                 CurveEnd::far,         CurveEnd::stopped, CurveEnd::stalled,
+                                 CurveEnd::not_followed};
     return stop == CurveStop::stuck ? why_stuck<CurveEnd>(system_) : ends[static_cast<int>(stop)];
   }
   /// @}

@@ -30,7 +30,8 @@ SE3<double> RodWay::pose(double parameter) const {
 
 std::vector<EquilibriumCurve> trace_rods(RodWork& work, const RodWay& way, const CurveOptions& how) {
   auto tracer = tracer_of(work, way, 0);
-  const CurveRange range{how.lowest, how.highest, how.max_points, how.is_backward, how.follows_branches};
+  const CurveRange range{how.lowest,      how.highest,          how.max_points,
+                         how.is_backward, how.follows_branches, how.max_total_points};
   return CurveWriter<RodProblem>(tracer, range, work.stop).run();
 }
 

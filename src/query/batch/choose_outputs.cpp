@@ -66,7 +66,7 @@ class OutputChooser {
   /// Notes what is wrong, and adds the words of `want` that outputs go with.
   void check(const BatchOutputs& outputs) {
     const Wants wanted = places_.wanted(named_wants(query_));
-    Wants added;
+    Wants added, used;
     for (const auto& output : outputs) {
       const std::string& place = output.second;
       const auto found = places_.find(place);
@@ -87,9 +87,11 @@ class OutputChooser {
       if (last.part == AnswerPart::value)
         if (std::string why = layouts_.why_no_column(place); !why.empty()) refuse(std::move(why));
       needs_legs = needs_legs || root.want == Want::legs;
+      used = used | gives(root);
       if (root.want && !root.is_always && !(wanted | added).has(*root.want))
         added = added | Wants{*root.want};
     }
+    if (errors_.empty()) refuse_useless(used);
     if (!errors_.empty()) return;
     for (std::size_t k = 0; k < find_field("want")->words.size(); ++k)
       if (added.has(static_cast<Want>(k))) add_want(query_, static_cast<Want>(k));
@@ -100,6 +102,30 @@ class OutputChooser {
   Errors errors() { return std::move(errors_); }
 
  private:
+  /// Words of `want` that a place is told by.
+  static Wants gives(const AnswerWord& root) {
+    if (!root.want) return {};
+    if (root.name == "lines") return {Want::lines, Want::shape};
+    if (root.name == "buckling_margin") return {Want::stability, Want::margins};
+    return {*root.want};
+  }
+
+  /// Words of `want` that change no output. Pose and legs are there by themselves; where rates have no unique
+  /// answer, which `velocity` and `sensitivity` look at, the status says so.
+  void refuse_useless(Wants used) {
+    const Wants idle =
+        named_wants(query_) - used - Wants{Want::pose, Want::legs, Want::velocity, Want::sensitivity};
+    for (std::size_t k = 0; k < find_field("want")->words.size(); ++k) {
+      const auto want = static_cast<Want>(k);
+      if (!idle.has(want)) continue;
+      const std::string_view word = find_field("want")->words[k];
+      const std::vector<std::string> places = places_.given_by(want, query_);
+      errors_.push_back({"no_effect", "want",
+                         fmt::format("no output is of what {} answers; name one{}, or leave the word out",
+                                     word, places.empty() ? "" : ", such as " + places.front())});
+    }
+  }
+
   void add_given(Want want, BatchOutputs& outputs) {
     bool is_told = false;
     for (const std::string& place : places_.given_by(want, query_)) {

@@ -60,6 +60,14 @@ std::string curve_in_words(CurveEnd end, const double* fold) {
   return fmt::format("the curve folds at {:.6g} of the way and does not come to its target; {}", *fold, ends);
 }
 
+std::string unfollowed_in_words(std::size_t bifurcations, std::size_t points) {
+  return fmt::format(
+      "curves that leave {} of the bifurcations were not all followed: the others have {} rows; ask for "
+      "fewer "
+      "samples or a narrower range",
+      bifurcations, points);
+}
+
 void note_stopped_curve(Context& context) {
   if (Report stopped; note_stop(context.work.stop, stopped)) context.report(stopped);
 }
