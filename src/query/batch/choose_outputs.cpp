@@ -84,7 +84,7 @@ class OutputChooser {
           refuse(fmt::format("{} goes with {}; add that to the question", place, word->with));
           break;
         }
-      if (last.part == AnswerPart::value)
+      if (last.is_value())
         if (std::string why = layouts_.why_no_column(place); !why.empty()) refuse(std::move(why));
       needs_legs = needs_legs || root.want == Want::legs;
       if (root.want && !root.is_always && !(wanted | added).has(*root.want))
@@ -168,8 +168,7 @@ BatchOutputs usual_outputs(const Robot& robot, std::string_view query) {
 
 Errors choose_outputs(const Robot& robot, const FieldLayouts& layouts, BatchOutputs& outputs,
                       BatchQuestion& question) {
-  const auto kind = std::ranges::find(ask_words, std::string_view(question.query.root.find("query")->text));
-  const auto ask = static_cast<Ask>(kind - ask_words.begin());
+  const Ask ask = ask_of(question.query.root.find("query")->text).value();
   if (ask == Ask::describe) return {};
   OutputChooser chooser(robot, ask, layouts, question.query.root);
   if (outputs.empty()) outputs = chooser.unnamed();

@@ -139,8 +139,8 @@ class NameReader {
     };
     if (before.layout.shape != layout.shape)
       return say(numbers(layout.size()), fmt::format("{}", before.layout.size()));
-    const std::string here = units_.field({}, place, layout).unit,
-                      there = units_.field({}, before.place, layout).unit;
+    const std::string here = units_.input({}, place, layout).unit,
+                      there = units_.input({}, before.place, layout).unit;
     if (here != there && !here.empty() && !there.empty()) say(here, there);
   }
   static std::string numbers(std::size_t count) {
@@ -260,7 +260,7 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
   const FieldUnits units(as_it_is, question.query.root);
   for (const auto& [name, place, layout] :
        NameReader(as_it_is, layouts, units, errors).read(question.query.root)) {
-    state->inputs.push_back(units.field(name, place, layout));
+    state->inputs.push_back(units.input(name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) {
       question.inputs.push_back(name + layout.suffix(i));
       if (std::ranges::count(question.inputs, question.inputs.back()) > 1)
@@ -281,7 +281,7 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   for (auto& [name, place] : told.outputs) {
     const FieldLayout layout = layouts.output(place);
-    state->outputs.push_back(units.field(name, place, layout));
+    state->outputs.push_back(units.output(name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) question.outputs.push_back(place + layout.suffix(i));
   }
   state->kind = choose_sampler(question);
