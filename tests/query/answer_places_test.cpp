@@ -136,6 +136,30 @@ TEST_F(EveryAnswer, HasWhatItsWantsGive) {
   EXPECT_GT(count, 1000U);
 }
 
+/// What the table says to be told without the legs is the same without them.
+TEST_F(EveryAnswer, IsTheSameWithoutLegs) {
+  std::size_t count = 0;
+  each([&](const Robot& robot, Json query, const auto& answer) {
+    const Wants named = named_wants(parse_json(query.dump(), "query").value().root);
+    if (query.contains("set") || query.value("start", Json()) == "last" || !(named & usual_wants).is_empty())
+      return;
+    const AnswerPlaces known(robot, ask_of(query));
+    const Json whole = answer(query);
+    query["want"].push_back("pose");
+    const Json narrow = answer(query);
+    if (narrow.contains("error")) return;  // its `want` does not know the word
+    for (const auto& [key, value] : whole.items()) {
+      Names places;
+      collect(value, key, places);
+      if (!places.empty() && known.is_told(*places.begin(), named | Wants{Want::pose})) {
+        ++count;
+        EXPECT_TRUE(narrow.contains(key) && narrow[key] == value) << key;
+      }
+    }
+  });
+  EXPECT_GT(count, 500U);
+}
+
 /// Fields that have one name are one to those who look them up by it.
 void expect_one_of_each_name(AnswerGroup group, std::map<std::string_view, AnswerField>& fields) {
   for (const AnswerWord& word : group) {

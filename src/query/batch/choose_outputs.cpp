@@ -86,7 +86,6 @@ class OutputChooser {
         }
       if (last.is_value())
         if (std::string why = layouts_.why_no_column(place); !why.empty()) refuse(std::move(why));
-      needs_legs = needs_legs || root.want == Want::legs;
       if (root.want && !root.is_always && !(wanted | added).has(*root.want))
         added = added | Wants{*root.want};
     }
@@ -94,8 +93,6 @@ class OutputChooser {
     for (std::size_t k = 0; k < find_field("want")->words.size(); ++k)
       if (added.has(static_cast<Want>(k))) add_want(query_, static_cast<Want>(k));
   }
-
-  bool needs_legs = false;  ///< some output is told with the legs alone
 
   Errors errors() { return std::move(errors_); }
 
@@ -173,7 +170,6 @@ Errors choose_outputs(const Robot& robot, const FieldLayouts& layouts, BatchOutp
   OutputChooser chooser(robot, ask, layouts, question.query.root);
   if (outputs.empty()) outputs = chooser.unnamed();
   chooser.check(outputs);
-  question.is_without_legs = !chooser.needs_legs;
   return chooser.errors();
 }
 

@@ -25,8 +25,8 @@ std::string_view word(const Node& query, std::string_view key) {
   return found ? std::string_view(found->text) : std::string_view();
 }
 
-/// As the question has it: changed by the constants of its `set`, by its `model`. What does not go is told by
-/// its answers.
+}  // namespace
+
 Robot as_asked(const Document& document, const Robot& robot, const Node& query) {
   Robot asked = robot;
   if (const Node* settings = query.find("set")) {
@@ -44,6 +44,8 @@ Robot as_asked(const Document& document, const Robot& robot, const Node& query) 
     if (const auto chains = asked.as(Model::prb)) asked = *chains;
   return asked;
 }
+
+namespace {
 
 /// Texts for single numbers, `$name[1]`, in place of one for a list.
 Node single_numbers(const std::string& text, const FieldLayout& layout) {

@@ -227,6 +227,13 @@ std::string_view AnswerPlaces::unit(std::string_view place) const {
   return has_one && !is_of_unit_vector ? found->unit : std::string_view();
 }
 
+bool AnswerPlaces::is_told(std::string_view place, Wants named) const {
+  const auto found = find(place);
+  if (!found) return false;
+  const AnswerWord& root = *found->root;
+  return !root.want || root.is_always || wanted(named).has(*root.want);
+}
+
 std::vector<std::string> AnswerPlaces::given_by(Want want, const Node& query) const {
   std::vector<std::string> places;
   const auto collect = [&](const auto& self, AnswerGroup group, const std::string& before,

@@ -39,6 +39,8 @@ class SINEW_API AnswerPlaces {
 
   /// What a question is answered whose `want` names these words.
   Wants wanted(Wants named) const;
+  /// Whether what stands there is told to such a question.
+  bool is_told(std::string_view place, Wants named) const;
   /// Places of the values that a word of `want` gives by itself to a question.
   std::vector<std::string> given_by(Want want, const Node& query) const;
 
