@@ -75,7 +75,7 @@ RANKS.update({"x": 0, "y": 0, "phi": 0, "z": 0, "e1": 0, "e2": 0, "position": 1,
               "pulls": 2, "markers": 2, "time": 1, "blocks": 1})
 
 UNITS = {
-    **{name: unit for name, unit in _table.UNITS.items() if name not in ("base_tangent", "configuration", "z")}, "quaternion": "",
+    **{name: unit for name, unit in _table.UNITS.items() if name not in ("base_tangent", "configuration")}, "quaternion": "",
     "area": "rad^2", "iterations": "", "determinant": "", "residual": "",
     "height": "m", "radius": "m", "axial_forces": "N",
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 namespace sinew::inline v1 {
@@ -15,6 +16,12 @@ inline constexpr std::array<std::string_view, 9> ask_words{
     "forward", "inverse", "velocity", "shape", "statics", "track", "diagram", "identify", "describe"};
 
 constexpr std::string_view word_of(Ask ask) { return ask_words[static_cast<std::size_t>(ask)]; }
+/// Nothing of a word that is no kind of question.
+constexpr std::optional<Ask> ask_of(std::string_view word) {
+  for (std::size_t k = 0; k < ask_words.size(); ++k)
+    if (ask_words[k] == word) return static_cast<Ask>(k);
+  return {};
+}
 inline constexpr auto every_ask = [] {
   std::array<Ask, ask_words.size()> all = {};
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Ask>(k);

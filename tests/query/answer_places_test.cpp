@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -27,10 +28,7 @@ std::vector<Json> questions_to(std::string_view robot) {
   return queries;
 }
 
-Ask ask_of(const Json& query) {
-  const auto found = std::ranges::find(ask_words, query["query"].get<std::string>());
-  return static_cast<Ask>(found - ask_words.begin());
-}
+Ask ask_of(const Json& query) { return sinew::ask_of(query["query"].get<std::string>()).value(); }
 
 Robot as_asked(const Robot& robot, const Json& query) {
   const std::string model = query.value("model", "");
@@ -83,7 +81,7 @@ TEST_F(EveryAnswer, HasOnlyPlacesOfTheTable) {
       const auto found = known.find(place);
       EXPECT_TRUE(found) << place << ": " << found.error();
       if (!found) continue;
-      if (found->last->part == AnswerPart::value) {
+      if (found->last->is_value()) {
         EXPECT_EQ(layouts.why_no_column(place), "") << place;
       }
       EXPECT_TRUE(found->root->with.empty() || query.contains(found->root->with)) << place;
@@ -136,6 +134,47 @@ TEST_F(EveryAnswer, HasWhatItsWantsGive) {
     }
   });
   EXPECT_GT(count, 1000U);
+}
+
+/// What the table says to be told without the legs is the same without them.
+TEST_F(EveryAnswer, IsTheSameWithoutLegs) {
+  std::size_t count = 0;
+  each([&](const Robot& robot, Json query, const auto& answer) {
+    const Wants named = named_wants(parse_json(query.dump(), "query").value().root);
+    if (query.contains("set") || query.value("start", Json()) == "last" || !(named & usual_wants).is_empty())
+      return;
+    const AnswerPlaces known(robot, ask_of(query));
+    const Json whole = answer(query);
+    query["want"].push_back("pose");
+    const Json narrow = answer(query);
+    if (narrow.contains("error")) return;  // its `want` does not know the word
+    for (const auto& [key, value] : whole.items()) {
+      Names places;
+      collect(value, key, places);
+      if (!places.empty() && known.is_told(*places.begin(), named | Wants{Want::pose})) {
+        ++count;
+        EXPECT_TRUE(narrow.contains(key) && narrow[key] == value) << key;
+      }
+    }
+  });
+  EXPECT_GT(count, 500U);
+}
+
+/// Fields that have one name are one to those who look them up by it.
+void expect_one_of_each_name(AnswerGroup group, std::map<std::string_view, AnswerField>& fields) {
+  for (const AnswerWord& word : group) {
+    expect_one_of_each_name(word.below, fields);
+    if (word.below.count > 0) continue;
+    const AnswerField& first = fields.try_emplace(word.field.name, word.field).first->second;
+    EXPECT_EQ(first.unit, word.field.unit) << word.field.name;
+    EXPECT_EQ(first.meaning, word.field.meaning) << word.field.name;
+  }
+}
+
+TEST(AnswerFields, HaveOneMeaningAName) {
+  std::map<std::string_view, AnswerField> fields;
+  expect_one_of_each_name(answer_words(), fields);
+  EXPECT_EQ(fields.size(), answer_fields().size());
 }
 
 }  // namespace answer_places_test

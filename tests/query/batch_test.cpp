@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/document/parse.hpp"
-#include "query/fields/answer_fields.hpp"
+#include "query/fields/answer_places.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/session.hpp"
 #include "sinew/solve/report.hpp"
@@ -649,7 +649,9 @@ TEST(Batch, TellsUnitsOfBlocks) {
     const auto batch = prepared(robot, question + std::string(R"(,"outputs":{"n":")") + place + "\"}}");
     if (!batch) return to_string(batch.error());
     std::string told = batch->outputs()[0].unit;
-    const std::string table = ", " + std::string(find_answer_field(place)->unit) + ", ";
+    const AnswerPlaces places(
+        ask_of(Json::parse(question + std::string("}"))["query"].get<std::string>()).value());
+    const std::string table = ", " + std::string(places.field(place)->unit) + ", ";
     for (std::size_t at = 0; at < told.size(); at = std::min(told.find(", ", at), told.size() - 2) + 2)
       EXPECT_NE(table.find(", " + told.substr(at, told.find(", ", at) - at) + ", "), std::string::npos)
           << place << ": " << told << " of " << table;
@@ -683,6 +685,15 @@ TEST(Batch, TellsUnitsOfBlocks) {
       prepared("6pfs", sensed + std::string(R"(,"outputs":{"n":"covariance"}})")).value().outputs()[0].unit,
       "N^2, N^2 m, N^2 m^2");
   EXPECT_EQ(unit("6pfs", sensed, "wrench_sensitivity"), "1, m");
+  const auto unit_of_determinant = [](const char* robot, const char* question) {
+    return prepared(robot, question + std::string(R"(,"outputs":{"n":"determinant"}})"))
+        .value()
+        .outputs()[0]
+        .unit;
+  };
+  EXPECT_EQ(unit_of_determinant("3-rfr", lengths), "m^4");
+  EXPECT_EQ(unit_of_determinant("3prs", lengths), "m^6");
+  EXPECT_EQ(unit_of_determinant("6-ufs", lengths), "m^9");
   EXPECT_EQ(unit("two-segment", pulled, "U"), "m/N, rad/N");
   EXPECT_EQ(unit("two-segment", paid_out, "U"), "1, rad/m");
   EXPECT_EQ(unit("two-segment", pulled, "answers_by_wrench"), "m/N, 1/N");

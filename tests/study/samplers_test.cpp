@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "query/batch/answer_path.hpp"
+#include "query/fields/answer_places.hpp"
 #include "study/sweep/plan.hpp"
 #include "study/sweep/prepare.hpp"
 #include "study/sweep/samples.hpp"
@@ -327,18 +328,20 @@ TEST(AnswerPath, FindsNumbersAndLengths) {
     EXPECT_FALSE(AnswerPath(path).number(answer)) << path;
 }
 
-TEST(AnswerPath, KnowsUnits) {
-  EXPECT_EQ(unit_of_answer("pose.position[2]"), "m");
-  EXPECT_EQ(unit_of_answer("pose.quaternion[2]"), "");
-  EXPECT_EQ(unit_of_answer("pose.phi"), "rad");
-  EXPECT_EQ(unit_of_answer("pose.torsion"), "rad");
-  EXPECT_EQ(unit_of_answer("legs[0].tendon_lengths[1]"), "m");
-  EXPECT_EQ(unit_of_answer("legs[0].base_tangent"), "rad");
-  EXPECT_EQ(unit_of_answer("legs[0].base_tangent[1]"), "");
-  EXPECT_EQ(unit_of_answer("legs[3].force[1]"), "N");
-  EXPECT_EQ(unit_of_answer("indices.position"), "");
-  EXPECT_EQ(unit_of_answer("configuration[0][1]"), "rad");
-  EXPECT_EQ(unit_of_answer("type_1.count"), "");
+TEST(AnswerPlaces, KnowUnitsWhoeverAnswers) {
+  const AnswerPlaces places(Ask::forward);
+  const auto unit = [&](std::string_view place) { return places.unit(place); };
+  EXPECT_EQ(unit("pose.position[2]"), "m");
+  EXPECT_EQ(unit("pose.quaternion[2]"), "");
+  EXPECT_EQ(unit("pose.phi"), "rad");
+  EXPECT_EQ(unit("pose.torsion"), "rad");
+  EXPECT_EQ(unit("legs[0].tendon_lengths[1]"), "m");
+  EXPECT_EQ(unit("legs[0].base_tangent"), "rad");
+  EXPECT_EQ(unit("legs[0].base_tangent[1]"), "");
+  EXPECT_EQ(unit("legs[3].force[1]"), "N");
+  EXPECT_EQ(unit("indices.position"), "");
+  EXPECT_EQ(unit("configuration[0][1]"), "rad");
+  EXPECT_EQ(unit("type_1.count"), "");
 }
 
 }  // namespace samplers_test

@@ -4,8 +4,6 @@
 #include <charconv>
 #include <limits>
 
-#include "query/fields/answer_fields.hpp"
-
 namespace sinew::inline v1 {
 namespace {
 
@@ -95,15 +93,6 @@ std::optional<double> AnswerPath::number(const Value& answer) const {
   if (!node) return entry;
   if (const bool* is = node->boolean()) return *is ? 1 : 0;
   return node->number();
-}
-
-std::string_view unit_of_answer(std::string_view path) {
-  const AnswerField* field = find_answer_field(path);
-  const bool is_component = path.ends_with(']');
-  const bool is_one = field && field->unit.find(", ") == std::string_view::npos;
-  if (!is_one || path.ends_with(".count") || (field->shape == AnswerShape::direction && is_component))
-    return {};
-  return field->unit;
 }
 
 }  // namespace sinew::inline v1

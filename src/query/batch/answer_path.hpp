@@ -28,10 +28,6 @@ class AnswerPath {
   bool counts_ = false;
 };
 
-/// The SI unit of a number of an answer, as far as its place tells; empty for plain numbers, and
-/// where numbers of its field have several.
-std::string_view unit_of_answer(std::string_view path);
-
 /// A name for what is there, where nobody gave one: `legs_0_force`.
 inline std::string name_of_place(std::string_view path) {
   std::string name;

@@ -84,9 +84,8 @@ class OutputChooser {
           refuse(fmt::format("{} goes with {}; add that to the question", place, word->with));
           break;
         }
-      if (last.part == AnswerPart::value)
+      if (last.is_value())
         if (std::string why = layouts_.why_no_column(place); !why.empty()) refuse(std::move(why));
-      needs_legs = needs_legs || root.want == Want::legs;
       used = used | gives(root);
       if (root.want && !root.is_always && !(wanted | added).has(*root.want))
         added = added | Wants{*root.want};
@@ -97,16 +96,14 @@ class OutputChooser {
       if (added.has(static_cast<Want>(k))) add_want(query_, static_cast<Want>(k));
   }
 
-  bool needs_legs = false;  ///< some output is told with the legs alone
-
   Errors errors() { return std::move(errors_); }
 
  private:
   /// Words of `want` that a place is told by.
   static Wants gives(const AnswerWord& root) {
     if (!root.want) return {};
-    if (root.name == "lines") return {Want::lines, Want::shape};
-    if (root.name == "buckling_margin") return {Want::stability, Want::margins};
+    if (root.name() == "lines") return {Want::lines, Want::shape};
+    if (root.name() == "buckling_margin") return {Want::stability, Want::margins};
     return {*root.want};
   }
 
@@ -194,13 +191,11 @@ BatchOutputs usual_outputs(const Robot& robot, std::string_view query) {
 
 Errors choose_outputs(const Robot& robot, const FieldLayouts& layouts, BatchOutputs& outputs,
                       BatchQuestion& question) {
-  const auto kind = std::ranges::find(ask_words, std::string_view(question.query.root.find("query")->text));
-  const auto ask = static_cast<Ask>(kind - ask_words.begin());
+  const Ask ask = ask_of(question.query.root.find("query")->text).value();
   if (ask == Ask::describe) return {};
   OutputChooser chooser(robot, ask, layouts, question.query.root);
   if (outputs.empty()) outputs = chooser.unnamed();
   chooser.check(outputs);
-  question.is_without_legs = !chooser.needs_legs;
   return chooser.errors();
 }
 

@@ -77,7 +77,8 @@ std::string FieldLayout::suffix(std::size_t number) const {
 }
 
 FieldLayouts::FieldLayouts(const Robot& robot, std::string_view query)
-    : is_diagram_(query == "diagram"),
+    : places_(robot, ask_of(query).value_or(Ask::describe)),
+      is_diagram_(query == "diagram"),
       is_statics_(query == "statics") {
   if (const SerialRobot* sections = robot.serial())
     count(*sections);
@@ -169,10 +170,10 @@ FieldLayout FieldLayouts::input(std::string_view place) const {
 FieldLayout FieldLayouts::whole(AnswerShape shape) const {
   using Shape = AnswerShape;
   switch (shape) {
-    case Shape::number:
-      return {};
     case Shape::pair:
       return list_of(2);
+    case Shape::pairs:
+      return matrix_of(legs_, 2);
     case Shape::triple:
       return list_of(3);
     case Shape::quaternion:
@@ -203,31 +204,24 @@ FieldLayout FieldLayouts::whole(AnswerShape shape) const {
       return matrix_or_lists_of(configuration_);
     case Shape::tendons:
       return lists_of(tendons_);
+    case Shape::tendons_by_inputs:
+      return matrix_of(columns_, columns_);
+    case Shape::tendons_by_wrench:
+      return matrix_of(columns_, freedoms_);
     case Shape::two_by_two:
       return matrix_of(2, 2);
-    case Shape::list:
+    default:
       return {};
   }
-  return {};
-}
-
-/// Some of its answers lie otherwise than those of legs that have the same name.
-FieldLayout FieldLayouts::of_arm(const AnswerField& field) const {
-  if (field.name == "tensions") return lists_of(tendons_);
-  for (const char* name : {"answer_rates", "changes_by_inputs", "tensions_by_inputs"})
-    if (field.name == name) return matrix_of(columns_, columns_);
-  for (const char* name : {"answers_by_wrench", "changes_by_wrench", "tensions_by_wrench"})
-    if (field.name == name) return matrix_of(columns_, freedoms_);
-  return whole(field.shape);
 }
 
 std::string FieldLayouts::why_no_column(std::string_view place) const {
-  const AnswerField* field = find_answer_field(place);
+  const AnswerField* field = places_.field(place);
   std::string_view whole = place;
   const Lengths indices = take_indices(whole);
   const FieldLayout layout = output(whole);
-  const bool is_number =
-      !field || field->shape == AnswerShape::number || (field->shape == AnswerShape::direction && is_planar_);
+  const bool is_number = !field || field->shape == AnswerShape::number || field->shape == AnswerShape::flag ||
+                         (field->shape == AnswerShape::direction && is_planar_);
   if (layout.shape.empty() && !is_number)
     return indices.empty() ? fmt::format(
                                  "{} is as long as it is, which is no column; name one of its "
@@ -252,10 +246,10 @@ std::string FieldLayouts::why_no_column(std::string_view place) const {
 
 FieldLayout FieldLayouts::output(std::string_view place) const {
   if (is_diagram_) return {};
-  const AnswerField* field = find_answer_field(place);
+  const AnswerField* field = places_.field(place);
   if (!field) return {};
   const Lengths indices = take_indices(place);
-  const FieldLayout layout = is_arm_ ? of_arm(*field) : whole(field->shape);
+  const FieldLayout layout = whole(field->shape);
   if (indices.empty()) return layout;
   return indices.size() == 1 && indices[0] < layout.lists.size() ? list_of(layout.lists[indices[0]])
                                                                  : FieldLayout();

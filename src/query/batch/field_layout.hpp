@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "query/fields/answer_fields.hpp"
+#include "query/fields/answer_places.hpp"
 #include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v1 {
@@ -46,8 +46,8 @@ class FieldLayouts {
   void count(const ArmLegs& robot);
   FieldLayout lists(std::string_view name) const;
   FieldLayout whole(AnswerShape shape) const;
-  FieldLayout of_arm(const AnswerField& field) const;
 
+  AnswerPlaces places_;
   bool is_diagram_, is_statics_, is_serial_ = false, is_arm_ = false, is_planar_ = false;
   std::size_t inputs_ = 0, freedoms_ = 0, legs_ = 0, rows_ = 0, columns_ = 0;  ///< rows of J, columns of K
   Lengths angles_;                                                             ///< of chains, a leg each

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "io/document/quantity.hpp"
-#include "query/batch/answer_path.hpp"
+#include "query/fields/fields.hpp"
 #include "sinew/robot/arm.hpp"
 #include "sinew/robot/arm_legs.hpp"
 #include "sinew/robot/assembly.hpp"
@@ -35,10 +35,16 @@ std::size_t index_of(std::string_view place, int k) {
   return open == std::string_view::npos ? 0 : static_cast<std::size_t>(std::atoi(place.data() + open + 1));
 }
 
+Ask kind_of(const Node& query) {
+  const Node* kind = query.find("query");
+  return (kind ? ask_of(kind->text) : std::nullopt).value_or(Ask::describe);
+}
+
 }  // namespace
 
 FieldUnits::FieldUnits(const Robot& robot, const Node& query)
-    : kind_(robot.serial()                    ? Kind::serial
+    : places_(robot, kind_of(query)),
+      kind_(robot.serial()                    ? Kind::serial
             : robot.arm() || robot.arm_legs() ? Kind::arms
             : has_rods(robot)                 ? Kind::rods
             : robot.model() == Model::prb     ? Kind::chains
@@ -94,10 +100,12 @@ std::string FieldUnits::of_block(std::string_view name, std::size_t row, std::si
 
 /// Of fields whose numbers have several; else the table's.
 std::string FieldUnits::of_answer(std::string_view place) const {
-  const AnswerField* field = find_answer_field(place);
-  const bool has_several =
-      field && (field->unit.find(", ") != std::string_view::npos || field->name == "covariance");
-  if (!has_several) return std::string(unit_of_answer(place));
+  const AnswerField* field = places_.field(place);
+  if (field && field->name == "determinant")  // each line a length, each rotation another
+    return fmt::format("m^{}", legs_ + (linear_ == 2 ? 1 : 3));
+  const bool is_of_wrench = field && field->name == "covariance" && field->shape == AnswerShape::square;
+  const bool has_several = field && (field->unit.find(", ") != std::string_view::npos || is_of_wrench);
+  if (!has_several) return std::string(places_.unit(place));
   const std::size_t first = index_of(place, 0);
   if (field->name == "wrench" || field->name == "tip_wrench") return std::string(load(first));
   if (field->name == "linear") return std::string(motion(first));
@@ -113,29 +121,56 @@ std::string FieldUnits::of_answer(std::string_view place) const {
   return is_unsure ? std::string(field->unit) : of_block(field->name, first, index_of(place, 1));
 }
 
-std::string FieldUnits::of_number(std::string_view place) const {
-  const std::string_view field = place.substr(0, place.find('['));
-  const std::size_t index = index_of(place, 0);
-  if (field == "following" || field == "until.wrench" || field == "to.wrench")
-    return std::string(load(index));
-  if (field == "gravity") return "m/s^2";
-  if (field == "lengths") return "m";
-  if (field == "angles") return "rad";
-  if (field == "axial_forces" || field == "measured_tensions" || field == "tensions") return "N";
-  if (field == "distributed" || field == "distributed_following") return "N/m";
-  return of_answer(place);
+/// Of places of questions.
+std::string FieldUnits::of_question(std::string_view place) const {
+  const std::string_view words = place.substr(0, place.find('[', place.rfind('.') + 1));
+  const std::string_view name = words.substr(words.rfind('.') + 1);
+  if (words.starts_with("set.")) return name == "length" ? "m" : "";  // units of the rest stand in no table
+  constexpr std::pair<std::string_view, std::string_view> parts[] = {
+      {"x", "m"},      {"y", "m"},         {"z", "m"},         {"phi", "rad"},
+      {"tilt", "rad"}, {"azimuth", "rad"}, {"torsion", "rad"}, {"curvatures", "1/m"}};  // of poses, of starts
+  for (const auto& [part, one] : parts)
+    if (part == name) return std::string(one);
+  const Field* field = find_field(name);
+  if (!field) return {};
+  const std::size_t first = index_of(place, 0);
+  switch (field->shape) {
+    case FieldShape::inputs:
+      return name == "rates" ? of_coordinate(first) + "/s" : of_input(first);
+    case FieldShape::wrench:
+      return std::string(load(first));
+    case FieldShape::twist:
+      return name == "twist" ? fmt::format("{}/s", motion(first)) : std::string();
+    case FieldShape::quantity:
+    case FieldShape::point:
+    case FieldShape::numbers:
+    case FieldShape::per_leg:
+    case FieldShape::pairs:
+    case FieldShape::lists:
+      return name.starts_with("distributed") ? "N/m" : std::string(unit(field->dimension));
+    default:
+      return {};
+  }
 }
 
-Batch::Field FieldUnits::field(std::string name, const std::string& place, const FieldLayout& layout) const {
-  Batch::Field field{std::move(name), {}, layout.shape};
+Batch::Field FieldUnits::input(std::string name, const std::string& place, const FieldLayout& layout) const {
+  return {std::move(name), joined(place, layout, &FieldUnits::of_question), layout.shape};
+}
+
+Batch::Field FieldUnits::output(std::string name, const std::string& place, const FieldLayout& layout) const {
+  return {std::move(name), joined(place, layout, &FieldUnits::of_answer), layout.shape};
+}
+
+/// Of all numbers that stand at a place.
+std::string FieldUnits::joined(const std::string& place, const FieldLayout& layout,
+                               std::string (FieldUnits::*of)(std::string_view) const) const {
   std::vector<std::string> units;
   for (std::size_t i = 0; i < layout.size(); ++i) {
-    std::string one = of_number(place + layout.suffix(i));
+    std::string one = (this->*of)(place + layout.suffix(i));
     if (std::ranges::find(units, one) == units.end()) units.push_back(std::move(one));
   }
   if (units.size() > 1) std::ranges::replace(units, "", "1");
-  field.unit = fmt::format("{}", fmt::join(units, ", "));
-  return field;
+  return fmt::format("{}", fmt::join(units, ", "));
 }
 
 }  // namespace sinew::inline v1

@@ -16,15 +16,19 @@ class FieldUnits {
   /// @param robot by the model that is asked for
   FieldUnits(const Robot& robot, const Node& query);
 
-  /// Its unit names those of its numbers in the order in which they first stand, `N/m, N, N m`; 1 is that of
-  /// plain numbers among others.
-  Batch::Field field(std::string name, const std::string& place, const FieldLayout& layout) const;
+  /// What stands at a place of the question. Its unit names those of its numbers in the order in which they
+  /// first stand, `N/m, N, N m`; 1 is that of plain numbers among others.
+  Batch::Field input(std::string name, const std::string& place, const FieldLayout& layout) const;
+  /// The same of its answers.
+  Batch::Field output(std::string name, const std::string& place, const FieldLayout& layout) const;
 
  private:
   enum class Holding { tensions, changes, both };  ///< what tendons of arms are held by
 
-  std::string of_number(std::string_view place) const;
+  std::string of_question(std::string_view place) const;
   std::string of_answer(std::string_view place) const;
+  std::string joined(const std::string& place, const FieldLayout& layout,
+                     std::string (FieldUnits::*of)(std::string_view) const) const;
   std::string of_block(std::string_view name, std::size_t row, std::size_t column) const;
   std::string of_input(std::size_t input) const;
   std::string of_coordinate(std::size_t column) const;
@@ -34,6 +38,7 @@ class FieldUnits {
 
   enum class Kind { arcs, chains, rods, serial, arms };
 
+  AnswerPlaces places_;
   Kind kind_;
   std::size_t linear_, legs_;        ///< freedoms along axes; legs, whose constraints are J's first rows
   std::vector<std::string> inputs_;  ///< what answers call so, or of serial robots their coordinates

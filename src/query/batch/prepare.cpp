@@ -25,8 +25,8 @@ std::string_view word(const Node& query, std::string_view key) {
   return found ? std::string_view(found->text) : std::string_view();
 }
 
-/// As the question has it: changed by the constants of its `set`, by its `model`. What does not go is told by
-/// its answers.
+}  // namespace
+
 Robot as_asked(const Document& document, const Robot& robot, const Node& query) {
   Robot asked = robot;
   if (const Node* settings = query.find("set")) {
@@ -44,6 +44,8 @@ Robot as_asked(const Document& document, const Robot& robot, const Node& query) 
     if (const auto chains = asked.as(Model::prb)) asked = *chains;
   return asked;
 }
+
+namespace {
 
 /// Texts for single numbers, `$name[1]`, in place of one for a list.
 Node single_numbers(const std::string& text, const FieldLayout& layout) {
@@ -139,8 +141,8 @@ class NameReader {
     };
     if (before.layout.shape != layout.shape)
       return say(numbers(layout.size()), fmt::format("{}", before.layout.size()));
-    const std::string here = units_.field({}, place, layout).unit,
-                      there = units_.field({}, before.place, layout).unit;
+    const std::string here = units_.input({}, place, layout).unit,
+                      there = units_.input({}, before.place, layout).unit;
     if (here != there && !here.empty() && !there.empty()) say(here, there);
   }
   static std::string numbers(std::size_t count) {
@@ -260,7 +262,7 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
   const FieldUnits units(as_it_is, question.query.root);
   for (const auto& [name, place, layout] :
        NameReader(as_it_is, layouts, units, errors).read(question.query.root)) {
-    state->inputs.push_back(units.field(name, place, layout));
+    state->inputs.push_back(units.input(name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) {
       question.inputs.push_back(name + layout.suffix(i));
       if (std::ranges::count(question.inputs, question.inputs.back()) > 1)
@@ -281,7 +283,7 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   for (auto& [name, place] : told.outputs) {
     const FieldLayout layout = layouts.output(place);
-    state->outputs.push_back(units.field(name, place, layout));
+    state->outputs.push_back(units.output(name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) question.outputs.push_back(place + layout.suffix(i));
   }
   state->kind = choose_sampler(question);

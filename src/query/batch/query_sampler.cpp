@@ -1,6 +1,5 @@
 /// Samples by queries, one after the other.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <memory>
@@ -9,30 +8,28 @@
 #include "query/batch/placeholders.hpp"
 #include "query/batch/row_places.hpp"
 #include "query/batch/sampler.hpp"
+#include "query/fields/answer_places.hpp"
 #include "query/tree_session.hpp"
 #include "query/wants.hpp"
 #include "sinew/base/numbers.hpp"
+#include "sinew/io/robot_file.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-/// Whether it is told of a configuration without its legs, by all mechanics.
-bool is_without_legs(std::string_view output) {
-  constexpr std::array<std::string_view, 12> roots{
-      "pose",    "tip",    "inputs", "residual", "iterations", "determinant",
-      "indices", "type_1", "type_2", "rates",    "stable",     "unstable_directions"};
-  return std::ranges::find(roots, output.substr(0, output.find_first_of(".["))) != roots.end();
-}
-
 /// The question without what is usual of it and goes to no column: of chains, legs and what simpler models
 /// make of them are a quarter of its time.
 Document narrowed(const BatchQuestion& question, TreeSession& session) {
-  if (!question.is_without_legs && !std::ranges::all_of(question.outputs, is_without_legs))
-    return question.query;
+  const auto ask = ask_of(question.query.root.find("query")->text);
+  const Wants named = named_wants(question.query.root);
+  const auto robot = read_robot(question.robot);
+  if (!ask || !robot || !(named & usual_wants).is_empty()) return question.query;
+  const AnswerPlaces places(as_asked(question.robot, *robot, question.query.root), *ask);
+  const auto is_without_legs = [&](std::string_view output) {
+    return places.is_told(output, named | Wants{Want::pose});
+  };
+  if (!std::ranges::all_of(question.outputs, is_without_legs)) return question.query;
   BatchQuestion narrow = question;
-  const Wants named = named_wants(narrow.query.root);
-  if (!(named & usual_wants).is_empty() || (!question.is_without_legs && !named.is_empty()))
-    return question.query;
   add_want(narrow.query.root, Want::pose);
   return session.errors_of(RowPlaces(narrow).trial()).empty() ? narrow.query : question.query;
 }

@@ -9,6 +9,7 @@
 
 #include "query/batch/answer_path.hpp"
 #include "query/batch/placeholders.hpp"
+#include "query/fields/answer_places.hpp"
 #include "query/tree_session.hpp"
 #include "study/sweep/left_out.hpp"
 #include "study/sweep/samples.hpp"
@@ -219,9 +220,10 @@ class Trial {
     describe.root.kind = Node::Kind::map;
     describe.root.members.push_back({.key = "query", .value = make_node("describe")});
     const Value description = session.answer(describe);
+    const AnswerPlaces places(ask_of(answers_.front().text_at("query")).value());
     for (StudyOutput& output : study_.outputs) {
       if (!output.unit.empty()) continue;
-      output.unit = unit_of_answer(output.path);
+      output.unit = places.unit(output.path);
       if (!output.path.starts_with("inputs[") || !description.contains("inputs")) continue;
       const Value::List& inputs = *description.find("inputs")->items();
       const auto index = static_cast<std::size_t>(std::atoi(output.path.c_str() + 7));
