@@ -188,6 +188,7 @@ def _units_of_robot(answer: Answer, places: list[str]) -> dict[str, str]:
     """Of places whose numbers have several units, of which a robot has some: as those of rows of the same question."""
     question = dict(answer.question.to_dict())
     query = question.pop("query", None)
+    question.pop("want", None)  # outputs bring the words that they go with
     from .prepared import Prepared
     for pattern in _patterns(question) if places else ():
         try:
