@@ -172,17 +172,22 @@ std::string_view spelling(const Field& field) {
   return "";
 }
 
-/// A sentence with fields in backticks as one with options.
+/// A sentence with names in backticks, those of fields as options.
 std::string in_dashes(std::string_view meaning) {
   std::string text;
-  bool is_field = false;
-  for (const char c : meaning) {
-    if (c == '`') {
-      is_field = !is_field;
-      text += is_field ? "--" : "";
-    } else {
-      text += is_field && c == '_' ? '-' : c;
+  for (std::size_t at = 0; at < meaning.size();) {
+    const std::size_t begin = std::min(meaning.find('`', at), meaning.size());
+    text += meaning.substr(at, begin - at);
+    const std::size_t end = std::min(meaning.find('`', begin + 1), meaning.size());
+    if (begin < end) {
+      std::string name(meaning.substr(begin + 1, end - begin - 1));
+      if (find_field(name.substr(0, name.find('.')))) {
+        std::ranges::replace(name, '_', '-');
+        text += "--";
+      }
+      text += name;
     }
+    at = end + 1;
   }
   return text;
 }

@@ -69,8 +69,7 @@ struct Arc {
   double size() const { return length; }             ///< a length to compare errors with [m]
   double domain() const { return bounds().domain; }  ///< branch coordinates lie in (−domain, domain)
   static constexpr std::string_view beyond_domain =  ///< what an input does that leaves the domain
-      "bends the link to a full turn, or a tendon to its centre of curvature; give a length nearer to the "
-      "backbone's";
+      "bends the link to a full turn, or a tendon to its centre of curvature";
 
   /// The two curvatures ±κ [1/m] whose chord is ρ have this magnitude; NaN where ρ exceeds the length.
   double curvature_from_chord(double chord_length) const {

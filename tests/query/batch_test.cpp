@@ -802,7 +802,12 @@ TEST(Batch, RefusesOutputsThatNoAnswerHas) {
   starts(said("3-rfr", forward, "J[3]"), "outputs.n: J has no [3]; give an index from 0 to 2");
   starts(said("3-rfr", forward, "J[0][3]"), "outputs.n: J[0] has no [3]; give an index from 0 to 2");
   starts(said("3-rfr", forward, "backbones"),
-         "outputs.n: backbones is as long as it is, which is no column;");
+         "outputs.n: backbones is as long as it is, which is no column; name one of its numbers, such as "
+         "backbones[0][0][0], or backbones.count");
+  starts(said("3-rfr", forward, "base[0]"),
+         "outputs.n: base[0] is as long as it is, which is no column; name one of its numbers, such as "
+         "base[0][0], or base[0].count");
+  EXPECT_EQ(said("3-rfr", forward, "base[0][1]"), "");
   starts(said("3-rfr", forward, "count"), "outputs.n: count goes with all; add that to the question");
   starts(said("3-rfr", R"({"query":"forward","inputs":"$l","all":false)", "count"),
          "outputs.n: count goes with");

@@ -28,7 +28,7 @@ void compare(const Json& value, const std::string& place, const FieldLayouts& la
   if (is_list_of_numbers(value)) {
     const FieldLayout layout = layouts.output(place);
     const AnswerField* field = places.field(place);
-    const bool is_open = field && field->shape == AnswerShape::list;  // as long as it is: the table says so
+    const bool is_open = field && depth_of(field->shape) > 0;  // as long as it is
     if (layout.shape.empty() && !is_open) unknown.insert(place.substr(place.rfind('.') + 1));
     for (std::size_t i = 0; i < layout.size() && !layout.shape.empty(); ++i) {
       Json::json_pointer at;

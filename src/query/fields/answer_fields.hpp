@@ -41,8 +41,17 @@ enum class AnswerShape {
   tendons_by_inputs,  ///< of an arm tendons by what holds each
   tendons_by_wrench,  ///< of an arm tendons by freedoms
   two_by_two,
-  list,  ///< as many as there are: the robot alone does not tell
+  list,       ///< as many as there are: the robot alone does not tell
+  points,     ///< a list of lists, such as points, with coordinates
+  polylines,  ///< a list of lists of lists, or deeper
 };
+/// How many indices lead to a number of a list; 0 of what is none.
+constexpr std::size_t depth_of(AnswerShape shape) {
+  return shape == AnswerShape::list        ? 1
+         : shape == AnswerShape::points    ? 2
+         : shape == AnswerShape::polylines ? 3
+                                           : 0;
+}
 
 struct AnswerField {
   std::string_view name;  ///< last word of its place, or as many as tell it from others; without indices
@@ -81,7 +90,7 @@ struct AnswerWord {
         want(given_by) {}
   constexpr std::string_view name() const { return field.name.substr(field.name.rfind('.') + 1); }
   /// No map, and of its numbers the robot tells how many there are.
-  constexpr bool is_value() const { return below.count == 0 && field.shape != AnswerShape::list; }
+  constexpr bool is_value() const { return below.count == 0 && depth_of(field.shape) == 0; }
 
   AnswerField field;
   unsigned of;  ///< robots and questions, as bits

@@ -186,11 +186,17 @@ tl::expected<AnswerPlaces::Found, std::string> AnswerPlaces::find(std::string_vi
       return tl::unexpected(fmt::format("{}[{}] is no number; name one of its fields, such as {}[{}].{}",
                                         before, indices[0], before, indices[0],
                                         words(word.below, name == "legs" ? 0 : leg).front()->name()));
-    if (word.field.shape == AnswerShape::list && is_last && indices.empty() && !counts)
-      return tl::unexpected(fmt::format(
-          "{} is as long as it is, which is no column; name one of its numbers, such as {}[0], or {}.count, "
-          "or ask such rows one by one",
-          before, before, before));
+    if (const std::size_t depth = depth_of(word.field.shape); indices.size() < depth && is_last && !counts) {
+      const std::string here =
+          indices.empty() ? before : fmt::format("{}[{}]", before, fmt::join(indices, "]["));
+      std::string number = here;
+      for (std::size_t index = indices.size(); index < depth; ++index) number += "[0]";
+      return tl::unexpected(
+          fmt::format("{} is as long as it is, which is no column; name one of its numbers, such as {}, or "
+                      "{}.count, or ask "
+                      "such rows one by one",
+                      here, number, here));
+    }
     if (name == "legs" && !indices.empty()) {
       leg = static_cast<std::ptrdiff_t>(indices[0]);
       if (indices[0] >= legs_.size())

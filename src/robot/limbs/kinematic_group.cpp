@@ -1,5 +1,7 @@
 #include "robot/limbs/kinematic_group.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,12 +17,29 @@ typename LegT::Coordinates commanded(const LegT& leg, const LegPlace& place, Num
   return leg.coordinates_of(inputs.subspan(at(place.input), LegT::inputs));
 }
 
-void say_beyond_domain(int input, std::string_view what, Report& report) {
+/// Of the last input of a leg, which moves its link.
+template <class LegT>
+void say_beyond_domain(const LegT& leg, int input, double value, Report& report) {
+  auto& text = report.message;
   report.status = Status::left_domain;
-  report.message.append("inputs[");
-  append_number(report.message, input);
-  report.message.append("] ");
-  report.message.append(what);
+  text.append("inputs[");
+  append_number(text, input);
+  text.append(std::isfinite(value) ? "] = " : "] is ");
+  append_mm(text, value);
+  text.append(std::isfinite(value) ? " " : ", which ");
+  text.append(LegT::Link::beyond_domain);
+  if constexpr (HasArc<typename LegT::Link>) {
+    auto q = LegT::Coordinates::Zero().eval();
+    std::array<double, 2> ends;
+    for (std::size_t k = 0; k < 2; ++k) {
+      q[LegT::coordinates - 1] = k == 0 ? -leg.domain() : leg.domain();
+      ends[k] = leg.inputs_of(q)[LegT::inputs - 1];
+    }
+    text.append("; give a length between ");
+    append_mm(text, std::min(ends[0], ends[1]));
+    text.append(" and ");
+    append_mm(text, std::max(ends[0], ends[1]));
+  }
 }
 
 }  // namespace
@@ -32,7 +51,7 @@ Report KinematicGroup<Any>::to_coordinates(Numbers inputs, std::span<double> coo
     const auto q = commanded(leg, place, inputs);
     std::copy(q.begin(), q.end(), coordinates.begin() + place.coordinate);
     if (report.ok() && !leg.in_domain(q))
-      say_beyond_domain(place.input + L::inputs - 1, L::Link::beyond_domain, report);
+      say_beyond_domain(leg, place.input + L::inputs - 1, inputs[at(place.input + L::inputs - 1)], report);
   });
   return report;
 }
