@@ -188,7 +188,7 @@ const std::array table{
     Verb{"check",
          "ROBOT|STUDY",
          "read a robot or study file and say what it means, or everything that is wrong with it",
-         {"json", "quiet", "help"},
+         {"set", "json", "quiet", "help"},
          {},
          "Values that are allowed but unlikely are warned of on stderr. --json gives the answer to describe. "
          "Of a study\nthe samples and columns are said that sinew sweep would give.",

@@ -12,6 +12,7 @@
 #include "io/document/quantity.hpp"
 #include "io/robots/arm_file.hpp"
 #include "io/robots/serial_file.hpp"
+#include "request.hpp"
 #include "show.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "terminal.hpp"
@@ -26,12 +27,13 @@ struct Checked {
   Answer home, velocity;
 };
 
-Checked put_questions(OpenRobot robot) {
+Checked put_questions(OpenRobot robot, const std::vector<Member>& changes) {
   const auto put = [&](std::string_view query, std::vector<std::string_view> want) {
     std::vector<Member> members{{.key = "query", .value = make_node(query)}, at_home(robot)};
     std::vector<Node> words;
     for (const std::string_view word : want) words.push_back(make_node(word));
     if (!words.empty()) members.push_back({.key = "want", .value = list_of(std::move(words))});
+    if (!changes.empty()) members.push_back({.key = "set", .value = map_of(changes)});
     return ask(robot, {"query", map_of(std::move(members))});
   };
   using Words = std::vector<std::string_view>;
@@ -336,8 +338,13 @@ bool is_scene(const std::string& name) {
 }  // namespace
 
 int run_check(const Arguments& arguments) {
-  if (is_scene(arguments.operand())) return check_scene(arguments);
-  if (may_be_study(arguments.operand())) return check_study(arguments);
+  const bool is_of_scene = is_scene(arguments.operand());
+  if (is_of_scene || may_be_study(arguments.operand())) {
+    if (arguments.has("set"))
+      return refuse(arguments.verb,
+                    {{"no_effect", "--set", "it changes a robot, and this file is none; leave it out"}});
+    return is_of_scene ? check_scene(arguments) : check_study(arguments);
+  }
   auto robot = open(arguments);
   if (!robot) {
     if (arguments.has("json")) print(json_error(robot.error()) + '\n');
@@ -355,7 +362,8 @@ int run_check(const Arguments& arguments) {
     print(arguments.has("json") ? robot->description.line() + '\n' : show_arm_legs_robot(*robot));
     return solved;
   }
-  const Checked checked = put_questions(std::move(*robot));
+  const auto changes = settings(arguments);
+  const Checked checked = put_questions(std::move(*robot), changes ? *changes : std::vector<Member>());
   print(arguments.has("json") ? checked.robot.description.line() + '\n' : show(checked));
   if (!arguments.has("quiet")) warn(checked);
   return solved;
