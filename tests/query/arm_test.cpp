@@ -209,6 +209,25 @@ TEST(ArmQueries, AnyStartEndsHonestly) {
   }
 }
 
+/// At rest, where nothing is easier, and of the inverse: no order is too high for the model's elements.
+TEST(ArmQueries, EveryOrderIsAnswered) {
+  std::vector<Json> queries;
+  for (int order = 0; order <= 9; ++order) {
+    queries.push_back({{"query", "forward"}, {"tensions", {{0, 0, 0}, {0, 0, 0}}}, {"order", order}});
+    if (order % 3 == 0)
+      queries.push_back({{"query", "inverse"}, {"position", {0.05, 0.03, 0.38}}, {"order", order}});
+  }
+  for (const Json& answer : ask("two-segment", queries)) EXPECT_EQ(answer["status"], "converged") << answer;
+  const Json refused =
+      ask("two-segment",
+          {{{"query", "inverse"}, {"position", {0.05, 0.03, 0.38}}, {"order", 6}, {"elements", 2}}})[0];
+  EXPECT_EQ(refused["error"]["code"], "out_of_range") << refused;
+  EXPECT_EQ(refused["error"]["message"],
+            "polynomials of order 6 need at least 4 elements, found 2: two Gauss points in each have to tell "
+            "their 7 coefficients; give more elements, an order up to 3, or leave elements out")
+      << refused;
+}
+
 TEST(ArmQueries, Refusals) {
   const auto code = [](const Json& query) {
     const Json answer = ask("two-segment", {query})[0];

@@ -195,7 +195,7 @@ std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> st
   if (options.balance != ArmBalance::energy)
     return refuse(Status::unsupported, FixedText<240>("paths are followed with the balance by energy alone"));
   for (std::size_t k = 0; k < steps.size(); ++k)
-    if (const auto text = misfit(arm, steps[k].commands, steps[k].load); !text.empty())
+    if (const auto text = misfit(arm, steps[k].commands, steps[k].load, options); !text.empty())
       return refuse(Status::bad_input, FixedText<240>(fmt::format("step {}: {}", k + 1, text.view())));
   for (std::size_t k = 0; k < steps.size(); ++k)
     if (steps[k].divisions < 1)

@@ -10,6 +10,7 @@
 #include "leg/space.hpp"
 #include "query/arms/arms.hpp"
 #include "query/tip.hpp"
+#include "robot/arms/arm_model.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
@@ -199,10 +200,13 @@ ArmOptions read_arm_options(Question& context, int usual_iterations) {
                                                       {"projected", ArmBalance::projected},
                                                       {"collocated", ArmBalance::collocated},
                                                       {"closed_form", ArmBalance::closed_form}});
-  if (const auto order = query.optional("order")) options.order = order->integer(Range::between(0, 9));
+  const auto order = query.optional("order");
+  if (order) options.order = order->integer(Range::between(0, 9));
   if (const auto elements = query.optional("elements")) {
     const bool joints = options.model == ArmModel::prb;
     options.elements = elements->integer(Range::between(1, joints ? 10 : 200));
+    const std::string words = basis_misfit(options.model, options.order, options.elements);
+    if (!words.empty()) order->fail("out_of_range", words);
   }
   if (const auto accuracy = query.optional("accuracy"))
     options.accuracy = accuracy->number({.low = 0, .high = 1});

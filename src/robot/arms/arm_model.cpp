@@ -1,5 +1,7 @@
 #include "robot/arms/arm_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -62,12 +64,24 @@ constexpr std::array<double, 4> beam_links{0.125, 0.35, 0.388, 0.136};
 constexpr std::array<double, 3> beam_stiffness{3.25, 2.84, 2.95};
 constexpr double beam_length = beam_links[0] + beam_links[1] + beam_links[2] + beam_links[3];
 
+/// Of bending and torsion where none is asked for.
+int usual_order(ArmModel model) {
+  if (model == ArmModel::cc || model == ArmModel::subsegment_cc) return 0;
+  return model == ArmModel::rod ? 3 : 2;
+}
+
+/// Elements by the order: from the usual ones the quadrature's error, of the fourth power of their length,
+/// falls with each order as that of the polynomials does.
+constexpr std::array<int, 10> elements_between_discs{2, 2, 2, 3, 5, 8, 13, 20, 32, 50},
+    elements_of_section{8, 8, 8, 8, 12, 16, 24, 32, 48, 64};
+
 /// Share of a section's length below which a span is none.
 constexpr double least_span = 1e-9;
 
 class Builder {
  public:
   Builder(const Arm& arm, const ArmBasis& basis) : arm_(arm), basis_(basis) {
+    basis_.elements = elements_of(basis);
     rod_.tendons = static_cast<int>(arm.tendons.size());
     rod_.masses.resize(1);
     rod_.lengths.resize(1);
@@ -111,11 +125,7 @@ class Builder {
   /// Whether there may be a strain of this component.
   bool is_free(std::size_t component) const { return !basis_.in_plane || component % 2 == 0; }
   bool by_section() const { return basis_.model == ArmModel::rod || basis_.model == ArmModel::cc; }
-  int modes() const {
-    if (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc) return 1;
-    if (basis_.order >= 0) return basis_.order + 1;
-    return basis_.model == ArmModel::rod ? 4 : 3;
-  }
+  int modes() const { return order_of(basis_) + 1; }
 
   /// Shares of the section's length at which spans end.
   std::vector<double> span_ends(const ArmSection& section, const std::vector<double>& cuts) const {
@@ -144,10 +154,7 @@ class Builder {
     if (basis_.model == ArmModel::cc) begin_piece(section, 0, 1, 1, {});
     const std::vector<double> none;
     for (double end : ends) {
-      int elements = basis_.elements;
-      if (elements == 0)
-        elements = basis_.model == ArmModel::rod ? 8 : basis_.model == ArmModel::subsegment_rod ? 2 : 1;
-      if (basis_.model == ArmModel::cc) elements = 1;
+      const int elements = basis_.model == ArmModel::cc ? 1 : basis_.elements;
       if (basis_.twist_at_discs) {
         add_bending(m, start, end, cuts);
         start = end;
@@ -313,12 +320,14 @@ class Builder {
     const Six stiffness{here.shear, here.shear, here.stretch, here.bending_x, here.bending_y, here.torsion};
     piece.stretches = static_cast<int>(cuts.size()) + 1;
     modes = std::min(modes, strain::max_piece / 6 / piece.stretches);
-    const bool fine = basis_.order < 0 && cuts.empty();  // what is stiff follows with one order less
+    // What is stiff follows with one order less than the model's.
+    const bool fine = basis_.order < 0 && cuts.empty();
+    const int stiff_modes = fine ? std::min(modes, usual_order(basis_.model)) : modes;
     for (std::size_t c = 0; c < 6; ++c) {
       if (stiffness[c] <= 0 || !is_free(c)) continue;
       if (c == 5 && basis_.twist_at_discs) continue;
       if (c < 3 && (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc)) continue;
-      piece.modes[c] = piece.stretches * (fine && c < 3 && modes > 1 ? modes - 1 : modes);
+      piece.modes[c] = piece.stretches * (c < 3 ? stiff_modes : modes);
       piece.scale[c] = 1 / std::sqrt(stiffness[c]);
       piece.offset[c] = piece.size;
       piece.size += piece.modes[c];
@@ -510,6 +519,30 @@ CrossSection rectangular_section(const Material& material, double along_x, doubl
           material.young * area,
           material.shear * area * 5 / 6,
           material.density * area};
+}
+
+int elements_of(const ArmBasis& basis) {
+  if (basis.elements > 0) return basis.elements;
+  if (basis.model != ArmModel::rod && basis.model != ArmModel::subsegment_rod) return 1;
+  const auto& by_order = basis.model == ArmModel::rod ? elements_of_section : elements_between_discs;
+  const int order = basis.order < 0 ? usual_order(basis.model) : basis.order;
+  return std::max(by_order[std::min(at(order), by_order.size() - 1)], order / 2 + 1);
+}
+
+std::string basis_misfit(ArmModel model, int order, int elements) {
+  const bool has_polynomials = model == ArmModel::rod || model == ArmModel::subsegment_rod;
+  if (!has_polynomials || order < 0 || elements <= 0 || order <= most_order(elements)) return "";
+  return fmt::format(
+      "polynomials of order {} need at least {} elements, found {}: two Gauss points in each have to tell "
+      "their "
+      "{} coefficients; give more elements, an order up to {}, or leave elements out",
+      order, order / 2 + 1, elements, order + 1, most_order(elements));
+}
+
+int order_of(const ArmBasis& basis) {
+  if (basis.model != ArmModel::rod && basis.model != ArmModel::subsegment_rod)
+    return usual_order(basis.model);
+  return basis.order < 0 ? std::min(usual_order(basis.model), most_order(elements_of(basis))) : basis.order;
 }
 
 strain::RodModel make_rod(const Arm& arm, const ArmBasis& basis, const std::vector<double>& breaks) {
