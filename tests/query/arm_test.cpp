@@ -244,6 +244,8 @@ TEST(ArmQueries, Refusals) {
                   {"loads", {{{"place", 0.5}, {"wrench", {0, 0, 0, 0, 0, 0}}}}}}),
             "out_of_range");
   EXPECT_EQ(code({{"query", "forward"}, {"model", "elastica"}}), "unknown_choice");
+  EXPECT_EQ(code({{"query", "forward"}, {"accuracy", 0}}), "out_of_range");
+  EXPECT_EQ(code({{"query", "forward"}, {"accuracy", 1}}), "converged");
   EXPECT_EQ(code({{"query", "forward"}, {"want", {"legs"}}}), "unsupported");
   EXPECT_EQ(code({{"query", "track"}, {"poses", Json::array()}}), "unsupported");
   const auto from = [&](Json start, const char* query = "forward") {

@@ -75,7 +75,7 @@ TEST(ArmTrack, WithoutFrictionPointsAreThoseOfForward) {
 TEST(ArmTrack, MotorsPutInWhatFrictionTakesOverALoop) {
   const Json set = rubbing("tendon-rod", 0.2);
   const auto track = [&](const Json& points, int steps, bool goes_on) {
-    Json query{{"query", "track"}, {"set", set}, {"points", points}, {"steps", steps}, {"accuracy", 0}};
+    Json query{{"query", "track"}, {"set", set}, {"points", points}, {"steps", steps}, {"elements", 2}};
     if (goes_on) query["start"] = "last";
     return query;
   };

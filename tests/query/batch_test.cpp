@@ -863,7 +863,7 @@ TEST(Batch, TakesArraysAsTheyLie) {
 /// remembers.
 TEST(Batch, FollowsAnArmWhoseTendonsRubFromRowToRow) {
   const std::string question =
-      R"({"query": "track", "points": [{"tensions": "$T"}], "steps": 3, "accuracy": 0,
+      R"({"query": "track", "points": [{"tensions": "$T"}], "steps": 3, "elements": 2,
           "set": {"sections[0].tendons.friction": 0.3},
           "outputs": {"x": "tip.position[0]", "loss": "friction_loss"}, "path": ")";
   const std::vector<double> pulled{3, 0, 0, 0, 1, 0, 0, 0};
@@ -882,7 +882,7 @@ TEST(Batch, FollowsAnArmWhoseTendonsRubFromRowToRow) {
   auto session = Session::open("tendon-rod").value();
   const Json path = Json::parse(session.answer(
       R"({"query": "track", "points": [{"tensions": [[3, 0, 0, 0]]}, {"tensions": [[1, 0, 0, 0]]}], "steps": 3,
-          "accuracy": 0, "set": {"sections[0].tendons.friction": 0.3}})"));
+          "elements": 2, "set": {"sections[0].tendons.friction": 0.3}})"));
   EXPECT_NEAR(one[2], path["tip"]["position"][0].get<double>(), 1e-10);
 }
 

@@ -209,7 +209,7 @@ ArmOptions read_arm_options(Question& context, int usual_iterations) {
     if (!words.empty()) order->fail("out_of_range", words);
   }
   if (const auto accuracy = query.optional("accuracy"))
-    options.accuracy = accuracy->number({.low = 0, .high = 1});
+    options.accuracy = accuracy->number({.low = 0, .high = 1, .low_excluded = true});
   options.max_iterations = context.max_iterations.value_or(usual_iterations);
   return options;
 }
