@@ -228,6 +228,20 @@ TEST(ArmQueries, EveryOrderIsAnswered) {
       << refused;
 }
 
+/// There is an equilibrium, so no other shape to begin at is the way out: an accuracy that can be had is.
+TEST(ArmQueries, SaysWhatAccuracyCanBeHad) {
+  const auto at = [](double accuracy) {
+    return ask("two-segment",
+               {{{"query", "forward"}, {"tensions", {{4, 0, 0}, {0, 2, 0}}}, {"accuracy", accuracy}}})[0];
+  };
+  const Json fine = at(1e-11);
+  EXPECT_EQ(fine["status"], "stalled");
+  EXPECT_EQ(fine["message"],
+            "the finest polynomials still move the tip by 1.1e-10 m, accuracy: 1e-11 asks for 4.0e-12 m: give "
+            "accuracy: 3e-10 or more, or smaller loads and tensions");
+  EXPECT_EQ(at(3e-10)["status"], "converged");
+}
+
 TEST(ArmQueries, Refusals) {
   const auto code = [](const Json& query) {
     const Json answer = ask("two-segment", {query})[0];

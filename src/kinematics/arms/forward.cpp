@@ -386,12 +386,8 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   impl.balances = found.status == Status::converged;
   set_report(state.report, found, impl, impl.rod());
   if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));
-  if (ladder.refines() && state.report.ok() && state.resolution > 10 * ladder.wanted()) {
-    state.report.status = Status::stalled;
-    state.report.message = FixedText<240>(fmt::format(
-        "the finest polynomials still move the tip by {:.1e} m: loads or tensions are too large for this arm",
-        state.resolution));
-  }
+  if (ladder.refines() && state.report.ok())
+    report_coarse(state.resolution, options.accuracy, arm.length(), "tip", state.report);
   state.stable = found.negative == 0;
   state.stability_told = by_energy;
   write_state(arm, impl);
