@@ -175,6 +175,14 @@ TEST(ArmTrack, Refusals) {
   query["balance"] = "projected";
   EXPECT_EQ(code(two, query), "unsupported");
   query.erase("balance");
+  const Json joints{{"query", "track"}, {"model", "prb"}, {"points", {{{"tensions", {{5, 0, 0, 0}}}}}}};
+  EXPECT_EQ(code("tendon-rod", joints), "unsupported");
+  Json fit{{"query", "identify"}, {"model", "prb"}};
+  for (int k = 0; k < 12; ++k) {
+    fit["rows"]["pulls"].push_back({1e-3 * k, 0, -1e-3 * k, 0});
+    fit["rows"]["markers"].push_back({0.01 * k, 0, 0.5});
+  }
+  EXPECT_EQ(code("tendon-rod", fit), "unsupported");
   query["set"] = {{"sections.tendons[0].friction", -0.1}};
   EXPECT_EQ(code(two, query), "out_of_range");
   query["set"] = {{"sections.tendons[0].outside", 1.1}};

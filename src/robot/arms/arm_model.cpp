@@ -134,7 +134,7 @@ class Builder {
     if (channel) spans = by_section() ? 1 : std::max(basis_.elements, 10);
     std::vector<double> ends;
     for (int k = 1; k <= spans; ++k) ends.push_back(static_cast<double>(k) / spans);
-    if (!channel) return ends;
+    if (!channel || basis_.model == ArmModel::prb) return ends;  // where joints are does not depend on loads
     ends.insert(ends.end(), cuts.begin(), cuts.end());
     std::sort(ends.begin(), ends.end());
     // A load where a span ends anyway, or two loads at one place: a span without length has no strain.
@@ -164,30 +164,32 @@ class Builder {
         begin_joints(section, start, end, elements, (end - start) * section.length / elements, true);
       else if (basis_.model != ArmModel::cc)
         begin_piece(section, start, end, modes(), inner_cuts(channel ? none : cuts, start, end));
-      if (channel) {  // every element is a span of its own: no tendon runs straight
+      if (basis_.model == ArmModel::prb) {
+        begin_span();
+        add_joints(m, start, end, elements, cuts);
+        if (!channel) {
+          add_holes(m, start, end);
+          rod_.masses.back().amount += section.discs.mass;
+        }
+      } else if (channel) {  // every element is a span of its own: no tendon runs straight
         for (int e = 0; e < elements; ++e) {
           const double a = start + (end - start) * e / elements,
                        b = start + (end - start) * (e + 1) / elements;
           begin_span();
-          add_elements(m, a, b, start, end, e, elements);
+          add_elements(m, a, b);
         }
       } else {
         begin_span();
-        if (basis_.model == ArmModel::prb) {
-          add_joints(section, start, end, elements, cuts);
-        } else {
-          // Each stretch has as many elements as a whole span: its polynomials need their Gauss points.
-          std::vector<double> stops{start};
-          for (const double cut : cuts)
-            if (cut > start + 1e-9 && cut < end - 1e-9 && cut > stops.back() + 1e-9) stops.push_back(cut);
-          stops.push_back(end);
-          for (std::size_t k = 0; k + 1 < stops.size(); ++k)
-            for (int e = 0; e < elements; ++e) {
-              const double length = stops[k + 1] - stops[k];
-              add_elements(m, stops[k] + length * e / elements, stops[k] + length * (e + 1) / elements, start,
-                           end, e, elements);
-            }
-        }
+        // Each stretch has as many elements as a whole span: its polynomials need their Gauss points.
+        std::vector<double> stops{start};
+        for (const double cut : cuts)
+          if (cut > start + 1e-9 && cut < end - 1e-9 && cut > stops.back() + 1e-9) stops.push_back(cut);
+        stops.push_back(end);
+        for (std::size_t k = 0; k + 1 < stops.size(); ++k)
+          for (int e = 0; e < elements; ++e) {
+            const double length = stops[k + 1] - stops[k];
+            add_elements(m, stops[k] + length * e / elements, stops[k] + length * (e + 1) / elements);
+          }
         add_holes(m, start, end);
         rod_.masses.back().amount += section.discs.mass;
       }
@@ -231,8 +233,9 @@ class Builder {
   }
 
   /// Joints in the middle of even links, and rigid links between them and point loads.
-  void add_joints(const ArmSection& section, double start, double end, int joints,
-                  const std::vector<double>& cuts) {
+  void add_joints(int m, double start, double end, int joints, const std::vector<double>& cuts) {
+    const ArmSection& section = arm_.sections[at(m)];
+    const double length = (end - start) * section.length / joints;
     std::vector<std::pair<double, int>> stops;
     for (int k = 0; k < joints; ++k) stops.emplace_back(start + (end - start) * (k + 0.5) / joints, k);
     for (const double cut : cuts)
@@ -241,7 +244,8 @@ class Builder {
     double a = start;
     for (const auto& [place, joint] : stops) {
       if (place > a) add_rigid(section, a, place);
-      if (joint >= 0) add_joint(section, place, joint, (end - start) * section.length / joints);
+      if (joint >= 0) add_joint(section, place, joint, length);
+      if (joint >= 0 && section.discs.count == 0) add_joint_guides(m, place, length);
       a = place;
     }
     add_rigid(section, a, end);
@@ -267,10 +271,10 @@ class Builder {
       double a = start;
       for (const double cut : cuts)
         if (cut > start + 1e-12 && cut < end - 1e-12) {
-          add_elements(m, a, cut, start, end, 0, 1);
+          add_elements(m, a, cut);
           a = cut;
         }
-      add_elements(m, a, end, start, end, 0, 1);
+      add_elements(m, a, end);
     }
     for (Element* e = &rod_.elements[at(rod_.spans.back().first_element)]; e != &rod_.elements.back() + 1;
          ++e)
@@ -382,15 +386,8 @@ class Builder {
     ++rod_.pieces.back().spans;
   }
 
-  void add_elements(int m, double a, double b, double start, double end, int joint, int joints) {
+  void add_elements(int m, double a, double b) {
     const ArmSection& section = arm_.sections[at(m)];
-    if (basis_.model == ArmModel::prb) {
-      const double middle = 0.5 * (a + b);
-      add_rigid(section, a, middle);
-      add_joint(section, middle, joint, (end - start) * section.length / joints);
-      add_rigid(section, middle, b);
-      return;
-    }
     Element element = straight(section, a, b);
     while (at(element.stretch) + 2 < stretches_.size() && stretches_[at(element.stretch) + 1] <= a + 1e-12)
       ++element.stretch;
@@ -475,6 +472,27 @@ class Builder {
       }
       rod_.guides.push_back(guide);
       ++element.guides;
+    }
+  }
+  /// Where the last joint stands for so much of a channel: there v + u × r + dr/ds times the length is that
+  /// of the straight link, and u times the length is the joint's turn.
+  void add_joint_guides(int m, double place, double length) {
+    Element& joint = rod_.elements.back();
+    const ArmSection& section = arm_.sections[at(m)];
+    const auto& [ux, uy, uz] = section.curvature;
+    joint.first_guide = static_cast<int>(rod_.guides.size());
+    for (std::size_t i = 0; i < arm_.tendons.size(); ++i) {
+      const ArmTendon& tendon = arm_.tendons[i];
+      if (tendon.section() < m) continue;
+      const Three r = place_of(tendon.routes[at(m)], place),
+                  slope = slope_of(tendon.routes[at(m)], place, section.length);
+      Guide guide;
+      guide.tendon = static_cast<int>(i);
+      guide.place[0] = r;
+      guide.slope[0] = {length * (slope[0] - uz * r[1]), length * (slope[1] + uz * r[0]),
+                        length * (1 + ux * r[1] - uy * r[0])};
+      rod_.guides.push_back(guide);
+      ++joint.guides;
     }
   }
   void add_holes(int m, double start, double end) {
