@@ -223,7 +223,8 @@ TEST(ArmQueries, EveryOrderIsAnswered) {
           {{{"query", "inverse"}, {"position", {0.05, 0.03, 0.38}}, {"order", 6}, {"elements", 2}}})[0];
   EXPECT_EQ(refused["error"]["code"], "out_of_range") << refused;
   EXPECT_EQ(refused["error"]["message"],
-            "polynomials of order 6 need at least 4 elements, found 2: two Gauss points in each have to tell "
+            "order: polynomials of order 6 need at least 4 elements, found 2: two Gauss points in each have "
+            "to tell "
             "their 7 coefficients; give more elements, an order up to 3, or leave elements out")
       << refused;
 }
@@ -236,10 +237,24 @@ TEST(ArmQueries, SaysWhatAccuracyCanBeHad) {
   };
   const Json fine = at(1e-11);
   EXPECT_EQ(fine["status"], "stalled");
-  EXPECT_EQ(fine["message"],
-            "the finest polynomials still move the tip by 1.1e-10 m, accuracy: 1e-11 asks for 4.0e-12 m: give "
-            "accuracy: 3e-10 or more, or smaller loads and tensions");
+  EXPECT_EQ(
+      fine["message"],
+      "the finest polynomials still move the tip by 1.1e-10 m, accuracy: 1e-11 asks for 4.0e-12 m: give "
+      "accuracy: 3e-10 or more, or smaller loads and tensions");
   EXPECT_EQ(at(3e-10)["status"], "converged");
+}
+
+/// What is wanted is answered, or the message says why not.
+TEST(ArmQueries, StiffnessOrTheReason) {
+  for (const char* model : {"rod", "cc", "prb"}) {
+    const Json answer = ask(
+        "tendon-rod",
+        {{{"query", "forward"}, {"model", model}, {"tensions", {{5, 0, 0, 0}}}, {"want", {"stiffness"}}}})[0];
+    ASSERT_EQ(answer["status"], "converged") << answer;
+    EXPECT_TRUE(answer.contains("compliance"));
+    EXPECT_EQ(answer.contains("stiffness"), model != std::string("cc")) << answer;
+    EXPECT_EQ(answer.contains("message"), !answer.contains("stiffness")) << answer;
+  }
 }
 
 TEST(ArmQueries, Refusals) {
