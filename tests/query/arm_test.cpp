@@ -257,6 +257,27 @@ TEST(ArmQueries, StiffnessOrTheReason) {
   }
 }
 
+TEST(ArmQueries, GravityOfWhatHasNoMassIsRefused) {
+  const auto code = [](const char* robot, Json query) {
+    query["gravity"] = {0, 0, -9.81};
+    const Json answer = ask(robot, {query})[0];
+    return answer.contains("error") ? answer["error"]["code"].get<std::string>()
+                                    : answer["status"].get<std::string>();
+  };
+  const Json pulled{{"query", "forward"}, {"tensions", {{1, 0, 0}}}};
+  EXPECT_EQ(code("two-segment", pulled), "no_effect");
+  Json weighs = pulled;
+  weighs["set"] = {{"sections.discs", {{"count", 10}, {"mass", 0.001}}}};
+  EXPECT_EQ(code("two-segment", weighs), "converged");
+  EXPECT_EQ(code("two-segment", {{"query", "inverse"}, {"position", {0.05, 0.03, 0.38}}}), "no_effect");
+  EXPECT_EQ(code("tendon-rod", {{"query", "forward"}, {"tensions", {{1, 0, 0, 0}}}}), "converged");
+  EXPECT_EQ(code("tripod-two-section", {{"query", "forward"}}), "converged");
+  const Json light{{"platform.mass", 0},
+                   {"defaults.link.sections.discs.mass", 0},
+                   {"defaults.link.sections.backbone.material.density", 0}};
+  EXPECT_EQ(code("tripod-two-section", {{"query", "forward"}, {"set", light}}), "no_effect");
+}
+
 TEST(ArmQueries, Refusals) {
   const auto code = [](const Json& query) {
     const Json answer = ask("two-segment", {query})[0];

@@ -47,8 +47,13 @@ TEST(ArmTrack, WithoutFrictionPointsAreThoseOfForward) {
        {"distributed", {0.01, 0, 0}},
        {"loads", {{{"place", 0.2}, {"wrench", {0, 0.02, 0, 0, 0, 0}}}}}},
   };
-  const Json path =
-      ask("two-segment", {{{"query", "track"}, {"points", points}, {"steps", 2}, {"order", 3}}})[0];
+  const Json set{{"sections.discs", {{"count", 10}, {"mass", 1e-4}}}};
+  const Json path = ask("two-segment", {{{"query", "track"},
+                                         {"set", set},
+                                         {"points", points},
+                                         {"gravity", {0, 0, 0}},
+                                         {"steps", 2},
+                                         {"order", 3}}})[0];
   ASSERT_EQ(path["status"], "converged") << path;
   ASSERT_EQ(path["rows"].size(), 6U);
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -57,6 +62,7 @@ TEST(ArmTrack, WithoutFrictionPointsAreThoseOfForward) {
     EXPECT_EQ(row["part"], 1);
     Json question = points[k];
     question["query"] = "forward";
+    question["set"] = set;
     question["order"] = 3;
     const Json alone = ask("two-segment", {question})[0];
     ASSERT_EQ(alone["status"], "converged") << alone;

@@ -402,6 +402,7 @@ TEST(Batch, ArmsTakeAllLoadsOfASingleQuestion) {
   const Batch batch =
       prepared("two-segment",
                R"({"query":"forward","tensions":[["$a",0.5,0],[0.2,0,0]],"model":"cc","gravity":[0,-9.81,0],
+                   "set":{"sections.discs":{"count":10,"mass":0.001}},
                    "following":[0.01,0,0,0,0,0],"loads":[{"place":0.1,"wrench":[0,0.02,0,0,0,0]}],
                    "wrench":[0,0,"$f",0,0,0],"max_iterations":200,"outputs":{"p":"tip.position"}})")
           .value();

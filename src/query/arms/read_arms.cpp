@@ -161,6 +161,30 @@ ArmLegsPointLoad read_point_load(const ArmLegs& robot, Reader& load) {
 
 }  // namespace
 
+namespace {
+
+bool has_weight(const Arm& arm) {
+  return arm.tip_mass > 0 || std::ranges::any_of(arm.sections, [](const ArmSection& section) {
+           return section.start.mass > 0 || section.end.mass > 0 ||
+                  (section.discs.count > 0 && section.discs.mass > 0);
+         });
+}
+bool has_weight(const ArmLegs& robot) {
+  return robot.platform_mass > 0 ||
+         std::ranges::any_of(robot.legs, [](const ArmLeg& leg) { return has_weight(leg.arm); });
+}
+constexpr std::string_view no_weight(const Arm&) {
+  return "has no effect: nothing of this robot has a mass; give its backbones a density, its discs or its "
+         "tip "
+         "a mass";
+}
+constexpr std::string_view no_weight(const ArmLegs&) {
+  return "has no effect: nothing of this robot has a mass; give its backbones a density, its discs or its "
+         "platform a mass";
+}
+
+}  // namespace
+
 template <class Arms>
 typename ArmTypes<Arms>::Load read_arm_load(const Arms& robot, Reader& place,
                                             typename ArmTypes<Arms>::Load load) {
@@ -180,7 +204,10 @@ typename ArmTypes<Arms>::Load read_arm_load(const Arms& robot, Reader& place,
     load.points.clear();
     for (Reader& point : points->items()) load.points.push_back(read_point_load(robot, point));
   }
-  if (const auto gravity = place.optional("gravity")) load.gravity = read_gravity_of(*gravity, planar);
+  if (const auto gravity = place.optional("gravity")) {
+    if (!has_weight(robot)) gravity->fail("no_effect", no_weight(robot));
+    load.gravity = read_gravity_of(*gravity, planar);
+  }
   return load;
 }
 template ArmLoad read_arm_load(const Arm&, Reader&, ArmLoad);
