@@ -133,8 +133,9 @@ std::string as_option(std::string_view where) {
 }
 
 /// A word is a field where it cannot be anything else: it has an underscore, a member or an index, or a value
-/// after a colon, as in `model: prb`.
+/// after a colon, as in `model: prb` and `all: true`.
 std::string in_options(std::string_view message) {
+  constexpr std::string_view flag_value = ": true";
   std::string text;
   for (std::size_t at = 0; at < message.size();) {
     const bool is_inside =
@@ -143,15 +144,16 @@ std::string in_options(std::string_view message) {
     const std::size_t size = is_word(message[at]) && !is_inside ? field_size(message.substr(at)) : 0;
     const std::string_view word = message.substr(at, size), rest = message.substr(at + size);
     const bool has_member = rest.size() > 1 && (rest[0] == '[' || (rest[0] == '.' && is_word(rest[1])));
-    const bool has_value = rest.starts_with(": ") && (word == "model" || word == "law" || word == "hold");
-    const bool is_field = has_member || has_value || word.find('_') != std::string_view::npos ||
+    const bool has_value =
+        rest.starts_with(": ") && (word == "model" || word == "law" || word == "hold" || word == "accuracy");
+    const bool is_flag = word == "all" && rest.starts_with(flag_value);
+    const bool is_field = has_member || has_value || is_flag || word.find('_') != std::string_view::npos ||
                           word.find('.') != std::string_view::npos;
-    const bool is_set = rest.starts_with(": true");  // of a flag: all: true
-    const std::string name = size > 0 && (is_field || is_set) ? option_of(word) : std::string();
+    const std::string name = size > 0 && is_field ? option_of(word) : std::string();
     text += name.empty() ? std::string(message.substr(at, std::max<std::size_t>(size, 1))) : "--" + name;
     at += std::max<std::size_t>(size, 1);
-    if (!name.empty() && has_value) ++at;  // --model prb
-    if (!name.empty() && is_set) at += std::string_view(": true").size();
+    if (!name.empty() && has_value) ++at;                   // --model prb
+    if (!name.empty() && is_flag) at += flag_value.size();  // --all
   }
   return text;
 }

@@ -19,7 +19,7 @@ if(TARGET sinew_command AND TARGET example_01_first_answer)
                 $<$<TARGET_EXISTS:sinew_mex>:--octave$<SEMICOLON>${OCTAVE}>)
   add_test(NAME readme COMMAND Python3::Interpreter ${tools_dir}/readme.py --command $<TARGET_FILE_DIR:sinew_command> ${languages}
     --examples ${PROJECT_SOURCE_DIR}/examples/cpp --programs $<TARGET_FILE_DIR:example_01_first_answer>
-    README.md docs/tour.md docs/cpp.md docs/robot-files.md docs/protocol.md docs/identify.md
+    README.md docs/tour.md docs/cpp.md docs/robot-files.md docs/protocol.md docs/identify.md docs/arm-models.md
     COMMAND_EXPAND_LISTS WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   add_test(NAME tools.facts COMMAND Python3::Interpreter ${tools_dir}/facts.py $<TARGET_FILE:sinew_command>)
   add_test(NAME tools.fields COMMAND Python3::Interpreter ${tools_dir}/fields.py $<TARGET_FILE:sinew_command> --check)

@@ -117,11 +117,12 @@ class Verbs:
                 from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
-            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
-            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
-                discs (prb)
-            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
-                1e-6
+            order (int): of the polynomials of an arm's strain, 0 to 9, without refinement; default as
+                `accuracy` needs (docs/arm-models.md)
+            elements (int): of each section (rod) or between two discs (subsegment_rod), without refinement;
+                joints between two discs (prb); default as `order` or `accuracy` needs
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length, above 0
+                and up to 1; default 1e-6. Without refinement give elements
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
         arrays (n, ...). Also by keyword, of n rows alone:
@@ -258,11 +259,12 @@ class Verbs:
                 from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
-            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
-            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
-                discs (prb)
-            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
-                1e-6
+            order (int): of the polynomials of an arm's strain, 0 to 9, without refinement; default as
+                `accuracy` needs (docs/arm-models.md)
+            elements (int): of each section (rod) or between two discs (subsegment_rod), without refinement;
+                joints between two discs (prb); default as `order` or `accuracy` needs
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length, above 0
+                and up to 1; default 1e-6. Without refinement give elements
             tension_limit (number) [N]: most that a tendon may pull
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
@@ -406,11 +408,12 @@ class Verbs:
                 from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
-            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
-            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
-                discs (prb)
-            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
-                1e-6
+            order (int): of the polynomials of an arm's strain, 0 to 9, without refinement; default as
+                `accuracy` needs (docs/arm-models.md)
+            elements (int): of each section (rod) or between two discs (subsegment_rod), without refinement;
+                joints between two discs (prb); default as `order` or `accuracy` needs
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length, above 0
+                and up to 1; default 1e-6. Without refinement give elements
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
         arrays (n, ...). Also by keyword, of n rows alone:
@@ -566,11 +569,12 @@ class Verbs:
                 from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
-            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
-            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
-                discs (prb)
-            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
-                1e-6
+            order (int): of the polynomials of an arm's strain, 0 to 9, without refinement; default as
+                `accuracy` needs (docs/arm-models.md)
+            elements (int): of each section (rod) or between two discs (subsegment_rod), without refinement;
+                joints between two discs (prb); default as `order` or `accuracy` needs
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length, above 0
+                and up to 1; default 1e-6. Without refinement give elements
             force_alone (bool): the wrench that is sensed has no moment; default true
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
@@ -713,11 +717,12 @@ class Verbs:
                 from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
-            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
-            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
-                discs (prb)
-            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
-                1e-6
+            order (int): of the polynomials of an arm's strain, 0 to 9, without refinement; default as
+                `accuracy` needs (docs/arm-models.md)
+            elements (int): of each section (rod) or between two discs (subsegment_rod), without refinement;
+                joints between two discs (prb); default as `order` or `accuracy` needs
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length, above 0
+                and up to 1; default 1e-6. Without refinement give elements
             points (number, list, dict or str): the path of an arm, whose tendons rub, or of a platform on
                 legs of sections, whose tendons do not: a list of tensions or changes, as `forward` takes
                 them, of such a platform also of a pose, and where they change wrench, following,
@@ -940,11 +945,12 @@ class Verbs:
                 from 0
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
                 have it: projected, collocated, closed_form; a path knows energy alone
-            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
-            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
-                discs (prb)
-            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
-                1e-6
+            order (int): of the polynomials of an arm's strain, 0 to 9, without refinement; default as
+                `accuracy` needs (docs/arm-models.md)
+            elements (int): of each section (rod) or between two discs (subsegment_rod), without refinement;
+                joints between two discs (prb); default as `order` or `accuracy` needs
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length, above 0
+                and up to 1; default 1e-6. Without refinement give elements
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
         arrays (n, ...). Also by keyword, of n rows alone:

@@ -47,7 +47,9 @@ struct Element {
 /// A tendon in a channel: where it runs at the Gauss points of an element.
 struct Guide {
   int tendon = 0;
-  std::array<Three, 2> place{}, slope{};  ///< r [m] and dr/ds [1], in body axes
+  /// r [m] and dr/ds [1], in body axes; at a joint, whose strain is its turn alone, how far and which way the
+  /// tendon runs past it at rest [m].
+  std::array<Three, 2> place{}, slope{};
 };
 
 /// A tendon between two discs: the holes that it runs through.

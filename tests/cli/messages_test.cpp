@@ -145,6 +145,21 @@ TEST(Messages, NameOptionsAndNotTheFieldsOfQueries) {
   fmt::print("{} commands, {} refused\n", count, refused);
 }
 
+TEST(Messages, ArmsNameOptionsToo) {
+  const Scratch here;
+  const auto said = [&](const Words& more) {
+    Words words{"forward", "two-segment"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_command(words, here.path()).err;
+  };
+  EXPECT_EQ(
+      said({"--tensions", "4, 0, 0; 0, 2, 0", "--accuracy", "1e-11"}),
+      "forward two-segment: stalled: the finest polynomials still move the tip by 1.1e-10 m, --accuracy "
+      "1e-11 asks for 4.0e-12 m: give --accuracy 3e-10 or more, or smaller loads and tensions\n");
+  const std::string none = said({"--changes=-0.05, -0.05, -0.05; 0, 0, 0"});
+  EXPECT_NE(none.find("; --all looks from other shapes, too"), std::string::npos) << none;
+}
+
 TEST(Messages, NumbersFarOutsideTheRobotAreHintedAt) {
   const Scratch here;
   const std::pair<Words, std::string> cases[] = {

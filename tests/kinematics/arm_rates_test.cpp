@@ -88,6 +88,51 @@ INSTANTIATE_TEST_SUITE_P(Arm, Rates,
                                          Case{ArmModel::subsegment_cc, 1e-4, true},
                                          Case{ArmModel::cc, 0, false}, Case{ArmModel::prb, 1e-4, false}));
 
+/// Ten joints of a channel, and more: the rod's tip, nearer with the square of their number; by converging,
+/// helical and precurved channels, too.
+TEST(ArmRates, JointsInAChannelFeelTheTendon) {
+  for (int kind = 0; kind < 3; ++kind) {
+    Arm arm = tendon_rod(5e-5);
+    for (CrossSection* end : {&arm.sections[0].start, &arm.sections[0].end})
+      end->stretch = end->shear = 0;  // as links are
+    if (kind > 0)
+      for (ArmTendon& tendon : arm.tendons) {
+        tendon.routes[0].end_radius *= 0.5;
+        tendon.routes[0].end_angle += 1;
+      }
+    if (kind > 1) arm.sections[0].curvature = {1, -0.5, 0.8};
+    const auto tip = [&](ArmModel model, int elements, double tension) {
+      ArmWorkspace work(arm);
+      const ArmState state = arm_forward(arm, tensions({tension, 0, 1, 0}), {},
+                                         {.model = model, .elements = elements, .tolerance = 1e-13}, work);
+      EXPECT_TRUE(state.report.ok()) << to_string(state.report);
+      return state;
+    };
+    const ArmState rod = tip(ArmModel::rod, 40, 5);
+    double before = 0;
+    for (const int joints : {1, 2, 4}) {
+      const ArmState chain = tip(ArmModel::prb, joints, 5);
+      const double off = (chain.tip.p - rod.tip.p).norm();
+      EXPECT_LT(off, 0.02 * arm.length()) << kind << " " << joints;
+      for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(chain.changes[i], rod.changes[i], 1e-4 / (joints * joints)) << kind << " " << joints;
+      if (before > 0) {
+        EXPECT_NEAR(before / off, 4, 0.4) << kind << " " << joints;
+      }
+      before = off;
+    }
+    ArmWorkspace work(arm);
+    ASSERT_TRUE(
+        arm_forward(arm, tensions({5, 0, 1, 0}), {}, {.model = ArmModel::prb, .tolerance = 1e-13}, work)
+            .report.ok());
+    const ArmRates rates = arm_rates(arm, work);
+    const Vec3<double> speed =
+        (tip(ArmModel::prb, 0, 5.001).tip.p - tip(ArmModel::prb, 0, 4.999).tip.p) / 0.002;
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(rates.J[4 * i], speed[static_cast<Eigen::Index>(i)], 1e-6) << kind << " " << i;
+  }
+}
+
 /// Without load the energy is the elastic one: the margin is 1 whatever the model, the order, the taper.
 TEST(ArmRates, MarginIsOneAtRestAtAnyResolution) {
   for (const bool tapers : {false, true})

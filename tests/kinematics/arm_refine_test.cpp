@@ -76,6 +76,49 @@ TEST(ArmRefine, BucklingIsToldAsWithoutIt) {
   }
 }
 
+/// A smooth load on strongly bent sections, against twice the elements of the highest order.
+TEST(ArmRefine, EachOrderIsNearerThanTheOneBefore) {
+  const Arm arm = two_sections(5, 1e-4);
+  const ArmLoad load{.wrench = {0.1, 0.15, -0.1}, .along = {0.2, 0, 0.1}};
+  const auto tip = [&](const ArmOptions& options) {
+    ArmWorkspace work(arm);
+    const ArmState state = arm_forward(arm, tensions({4, 0, 0, 0, 2, 0}), load, options, work);
+    EXPECT_TRUE(state.report.ok()) << options.order << " " << state.report.message.view();
+    return state.tip.p;
+  };
+  const auto fine = tip({.order = 9, .elements = 100, .tolerance = 1e-12});
+  double before = 1;
+  for (int order = 0; order <= 9; ++order) {
+    const double off = (tip({.order = order, .tolerance = 1e-12}) - fine).norm() / arm.length();
+    EXPECT_LT(off, 0.5 * before) << order;
+    before = off;
+  }
+  EXPECT_LT(before, 1e-9);
+}
+
+/// Whatever the elements: as many coefficients as they have Gauss points at most, or a word.
+TEST(ArmRefine, OrdersThatElementsDoNotTellAreRefused) {
+  const Arm arm = two_sections(4);
+  for (const ArmModel model : {ArmModel::rod, ArmModel::subsegment_rod})
+    for (int elements = 1; elements <= 4; ++elements)
+      for (int order = -1; order <= 9; ++order) {
+        const ArmOptions options{.model = model, .order = order, .elements = elements};
+        ArmWorkspace work(arm);
+        const ArmState state = arm_forward(arm, tensions({0, 0, 0, 0, 0, 0}), {}, options, work);
+        EXPECT_EQ(state.report.status, order < 2 * elements ? Status::converged : Status::bad_input)
+            << order << " " << elements << " " << state.report.message.view();
+      }
+  ArmWorkspace work(arm);
+  const ArmOptions options{.order = 6, .elements = 2};
+  EXPECT_EQ(
+      arm_inverse(arm, {.position = std::array{0.05, 0.03, 0.38}}, {}, {.arm = options}, work).report.status,
+      Status::bad_input);
+  ArmMeasurement seen;
+  seen.held = tensions({1, 0, 0, 0, 0, 0});
+  seen.tip = {0.05, 0.03, 0.38};
+  EXPECT_EQ(arm_sense(arm, seen, {}, true, options, work).report.status, Status::bad_input);
+}
+
 TEST(ArmRefine, GradientsAloneTellHowFarTheFinerTipIs) {
   const Arm arm = two_sections(6, 1e-4);
   const RodModel coarse = rod_of(arm, -1, 2), fine = rod_of(arm, 3, 3);

@@ -209,6 +209,75 @@ TEST(ArmQueries, AnyStartEndsHonestly) {
   }
 }
 
+/// At rest, where nothing is easier, and of the inverse: no order is too high for the model's elements.
+TEST(ArmQueries, EveryOrderIsAnswered) {
+  std::vector<Json> queries;
+  for (int order = 0; order <= 9; ++order) {
+    queries.push_back({{"query", "forward"}, {"tensions", {{0, 0, 0}, {0, 0, 0}}}, {"order", order}});
+    if (order % 3 == 0)
+      queries.push_back({{"query", "inverse"}, {"position", {0.05, 0.03, 0.38}}, {"order", order}});
+  }
+  for (const Json& answer : ask("two-segment", queries)) EXPECT_EQ(answer["status"], "converged") << answer;
+  const Json refused =
+      ask("two-segment",
+          {{{"query", "inverse"}, {"position", {0.05, 0.03, 0.38}}, {"order", 6}, {"elements", 2}}})[0];
+  EXPECT_EQ(refused["error"]["code"], "out_of_range") << refused;
+  EXPECT_EQ(refused["error"]["message"],
+            "order: polynomials of order 6 need at least 4 elements, found 2: two Gauss points in each have "
+            "to tell "
+            "their 7 coefficients; give more elements, an order up to 3, or leave elements out")
+      << refused;
+}
+
+/// There is an equilibrium, so no other shape to begin at is the way out: an accuracy that can be had is.
+TEST(ArmQueries, SaysWhatAccuracyCanBeHad) {
+  const auto at = [](double accuracy) {
+    return ask("two-segment",
+               {{{"query", "forward"}, {"tensions", {{4, 0, 0}, {0, 2, 0}}}, {"accuracy", accuracy}}})[0];
+  };
+  const Json fine = at(1e-11);
+  EXPECT_EQ(fine["status"], "stalled");
+  EXPECT_EQ(
+      fine["message"],
+      "the finest polynomials still move the tip by 1.1e-10 m, accuracy: 1e-11 asks for 4.0e-12 m: give "
+      "accuracy: 3e-10 or more, or smaller loads and tensions");
+  EXPECT_EQ(at(3e-10)["status"], "converged");
+}
+
+/// What is wanted is answered, or the message says why not.
+TEST(ArmQueries, StiffnessOrTheReason) {
+  for (const char* model : {"rod", "cc", "prb"}) {
+    const Json answer = ask(
+        "tendon-rod",
+        {{{"query", "forward"}, {"model", model}, {"tensions", {{5, 0, 0, 0}}}, {"want", {"stiffness"}}}})[0];
+    ASSERT_EQ(answer["status"], "converged") << answer;
+    EXPECT_TRUE(answer.contains("compliance"));
+    EXPECT_EQ(answer.contains("stiffness"), model != std::string("cc")) << answer;
+    EXPECT_EQ(answer.contains("message"), !answer.contains("stiffness")) << answer;
+  }
+}
+
+TEST(ArmQueries, GravityOfWhatHasNoMassIsRefused) {
+  const auto code = [](const char* robot, Json query) {
+    query["gravity"] = {0, 0, -9.81};
+    const Json answer = ask(robot, {query})[0];
+    return answer.contains("error") ? answer["error"]["code"].get<std::string>()
+                                    : answer["status"].get<std::string>();
+  };
+  const Json pulled{{"query", "forward"}, {"tensions", {{1, 0, 0}}}};
+  EXPECT_EQ(code("two-segment", pulled), "no_effect");
+  Json weighs = pulled;
+  weighs["set"] = {{"sections.discs", {{"count", 10}, {"mass", 0.001}}}};
+  EXPECT_EQ(code("two-segment", weighs), "converged");
+  EXPECT_EQ(code("two-segment", {{"query", "inverse"}, {"position", {0.05, 0.03, 0.38}}}), "no_effect");
+  EXPECT_EQ(code("tendon-rod", {{"query", "forward"}, {"tensions", {{1, 0, 0, 0}}}}), "converged");
+  EXPECT_EQ(code("tripod-two-section", {{"query", "forward"}}), "converged");
+  const Json light{{"platform.mass", 0},
+                   {"defaults.link.sections.discs.mass", 0},
+                   {"defaults.link.sections.backbone.material.density", 0}};
+  EXPECT_EQ(code("tripod-two-section", {{"query", "forward"}, {"set", light}}), "no_effect");
+}
+
 TEST(ArmQueries, Refusals) {
   const auto code = [](const Json& query) {
     const Json answer = ask("two-segment", {query})[0];
@@ -225,6 +294,8 @@ TEST(ArmQueries, Refusals) {
                   {"loads", {{{"place", 0.5}, {"wrench", {0, 0, 0, 0, 0, 0}}}}}}),
             "out_of_range");
   EXPECT_EQ(code({{"query", "forward"}, {"model", "elastica"}}), "unknown_choice");
+  EXPECT_EQ(code({{"query", "forward"}, {"accuracy", 0}}), "out_of_range");
+  EXPECT_EQ(code({{"query", "forward"}, {"accuracy", 1}}), "converged");
   EXPECT_EQ(code({{"query", "forward"}, {"want", {"legs"}}}), "unsupported");
   EXPECT_EQ(code({{"query", "track"}, {"poses", Json::array()}}), "unsupported");
   const auto from = [&](Json start, const char* query = "forward") {

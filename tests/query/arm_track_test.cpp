@@ -47,8 +47,13 @@ TEST(ArmTrack, WithoutFrictionPointsAreThoseOfForward) {
        {"distributed", {0.01, 0, 0}},
        {"loads", {{{"place", 0.2}, {"wrench", {0, 0.02, 0, 0, 0, 0}}}}}},
   };
-  const Json path =
-      ask("two-segment", {{{"query", "track"}, {"points", points}, {"steps", 2}, {"order", 3}}})[0];
+  const Json set{{"sections.discs", {{"count", 10}, {"mass", 1e-4}}}};
+  const Json path = ask("two-segment", {{{"query", "track"},
+                                         {"set", set},
+                                         {"points", points},
+                                         {"gravity", {0, 0, 0}},
+                                         {"steps", 2},
+                                         {"order", 3}}})[0];
   ASSERT_EQ(path["status"], "converged") << path;
   ASSERT_EQ(path["rows"].size(), 6U);
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -57,6 +62,7 @@ TEST(ArmTrack, WithoutFrictionPointsAreThoseOfForward) {
     EXPECT_EQ(row["part"], 1);
     Json question = points[k];
     question["query"] = "forward";
+    question["set"] = set;
     question["order"] = 3;
     const Json alone = ask("two-segment", {question})[0];
     ASSERT_EQ(alone["status"], "converged") << alone;
@@ -75,7 +81,7 @@ TEST(ArmTrack, WithoutFrictionPointsAreThoseOfForward) {
 TEST(ArmTrack, MotorsPutInWhatFrictionTakesOverALoop) {
   const Json set = rubbing("tendon-rod", 0.2);
   const auto track = [&](const Json& points, int steps, bool goes_on) {
-    Json query{{"query", "track"}, {"set", set}, {"points", points}, {"steps", steps}, {"accuracy", 0}};
+    Json query{{"query", "track"}, {"set", set}, {"points", points}, {"steps", steps}, {"elements", 2}};
     if (goes_on) query["start"] = "last";
     return query;
   };
@@ -175,6 +181,14 @@ TEST(ArmTrack, Refusals) {
   query["balance"] = "projected";
   EXPECT_EQ(code(two, query), "unsupported");
   query.erase("balance");
+  const Json joints{{"query", "track"}, {"model", "prb"}, {"points", {{{"tensions", {{5, 0, 0, 0}}}}}}};
+  EXPECT_EQ(code("tendon-rod", joints), "unsupported");
+  Json fit{{"query", "identify"}, {"model", "prb"}};
+  for (int k = 0; k < 12; ++k) {
+    fit["rows"]["pulls"].push_back({1e-3 * k, 0, -1e-3 * k, 0});
+    fit["rows"]["markers"].push_back({0.01 * k, 0, 0.5});
+  }
+  EXPECT_EQ(code("tendon-rod", fit), "unsupported");
   query["set"] = {{"sections.tendons[0].friction", -0.1}};
   EXPECT_EQ(code(two, query), "out_of_range");
   query["set"] = {{"sections.tendons[0].outside", 1.1}};

@@ -403,6 +403,7 @@ TEST(Batch, ArmsTakeAllLoadsOfASingleQuestion) {
   const Batch batch =
       prepared("two-segment",
                R"({"query":"forward","tensions":[["$a",0.5,0],[0.2,0,0]],"model":"cc","gravity":[0,-9.81,0],
+                   "set":{"sections.discs":{"count":10,"mass":0.001}},
                    "following":[0.01,0,0,0,0,0],"loads":[{"place":0.1,"wrench":[0,0.02,0,0,0,0]}],
                    "wrench":[0,0,"$f",0,0,0],"max_iterations":200,"outputs":{"p":"tip.position"}})")
           .value();
@@ -915,7 +916,7 @@ TEST(Batch, TakesArraysAsTheyLie) {
 /// remembers.
 TEST(Batch, FollowsAnArmWhoseTendonsRubFromRowToRow) {
   const std::string question =
-      R"({"query": "track", "points": [{"tensions": "$T"}], "steps": 3, "accuracy": 0,
+      R"({"query": "track", "points": [{"tensions": "$T"}], "steps": 3, "elements": 2,
           "set": {"sections[0].tendons.friction": 0.3},
           "outputs": {"x": "tip.position[0]", "loss": "friction_loss"}, "path": ")";
   const std::vector<double> pulled{3, 0, 0, 0, 1, 0, 0, 0};
@@ -934,7 +935,7 @@ TEST(Batch, FollowsAnArmWhoseTendonsRubFromRowToRow) {
   auto session = Session::open("tendon-rod").value();
   const Json path = Json::parse(session.answer(
       R"({"query": "track", "points": [{"tensions": [[3, 0, 0, 0]]}, {"tensions": [[1, 0, 0, 0]]}], "steps": 3,
-          "accuracy": 0, "set": {"sections[0].tendons.friction": 0.3}})"));
+          "elements": 2, "set": {"sections[0].tendons.friction": 0.3}})"));
   EXPECT_NEAR(one[2], path["tip"]["position"][0].get<double>(), 1e-10);
 }
 

@@ -72,7 +72,7 @@ TEST(PlanarArmLegsQuery, OfConstantCurvatureItIsTheKinematicRobot) {
 TEST(PlanarArmLegsQuery, WhatTurnsIsInTheAxesOfItsPlace) {
   const double c = 1e-4;
   const auto pose = [&](const Json& more) {
-    Json query{{"query", "forward"}, {"accuracy", 0}, {"want", {"shape"}}};
+    Json query{{"query", "forward"}, {"elements", 2}, {"want", {"shape"}}};
     query.update(more);
     const Json found = ask(robot, {query})[0];
     EXPECT_EQ(found["status"], "converged") << found.dump();

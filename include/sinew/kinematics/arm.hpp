@@ -63,8 +63,11 @@ struct ArmOptions {
   ArmModel model = ArmModel::subsegment_rod;
   /// Other than by energy: discs in every section, tensions held (in closed form: changes), one resolution.
   ArmBalance balance = ArmBalance::energy;
-  int order = -1;          ///< of the polynomials of rods; −1: the model's, more where the answer needs it
-  int elements = 0;        ///< of a section (rod), between discs (subsegment_rod, prb); 0: the model's
+  /// Of the polynomials of rods, without refinement, at most 2 `elements` − 1; −1: the model's, more where
+  /// the answer needs it.
+  int order = -1;
+  /// Of a section (rod), between discs (subsegment_rod, prb), without refinement; 0: as `order` needs them.
+  int elements = 0;
   double accuracy = 1e-6;  ///< of the tip that rods are refined to, over the arm's length; 0: as they are [1]
   double tolerance = 1e-10;  ///< of the residual [1]
   int max_iterations = 200;  ///< of each search; refinement takes several [1]

@@ -79,6 +79,11 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
           (field.quantity == ArmQuantity::curvature_x || field.quantity == ArmQuantity::curvature_y))
         return failure("not_available", parameter.name,
                        "links of the model prb are curved for good; fit curvatures by another model.");
+  const bool has_channel = std::ranges::any_of(
+      given.arm.sections, [](const ArmSection& section) { return section.discs.count == 0; });
+  if (options.model == ArmModel::prb && has_channel)
+    return failure("not_available", "model",
+                   "joints (prb) are fitted to arms with discs alone; take rod or cc for channels.");
   Fit fit(given, parameters, rows, options);
   const auto size = static_cast<Index>(parameters.size());
   std::vector<int> train, held_out, all;

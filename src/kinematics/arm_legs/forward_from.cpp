@@ -43,7 +43,7 @@ void refine_by_newton(const ArmLegs& robot, const LegsProblem& problem, const Ar
   state.reached = found.status == Status::converged ? 1 : 0;
   if (found.status == Status::converged) {
     write_stability(group, state);
-    report_coarse(state.resolution, options.accuracy * legs_size(robot), state.report);
+    report_coarse(state.resolution, options.accuracy, legs_size(robot), "platform", state.report);
   }
   write_legs_state(robot, group, state);
 }

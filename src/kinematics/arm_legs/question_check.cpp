@@ -65,6 +65,8 @@ Report legs_misfit(const ArmLegs& robot, std::span<const TendonCommand> commands
         }))
       return bad("a load acts out of the plane, in which alone the robot moves: leave that part of it out");
   }
+  if (const auto words = basis_misfit(options.model, options.order, options.elements); !words.empty())
+    return bad(words);
   if (options.balance != ArmBalance::energy)
     return {Status::unsupported, 0, 0,
             FixedText<240>("legs balance by energy alone in this version: leave balance out")};

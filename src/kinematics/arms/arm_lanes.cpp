@@ -170,7 +170,7 @@ void ArmLanes::Impl::begin(OpenRow& open) {
   fits = fits && all_zero(std::span(load.wrench).subspan<3>()) &&  // a moment has no potential
          all_zero(load.following) && all_zero(load.along) && all_zero(load.following_along) &&
          load.points.empty() && !load.gravity;
-  if (!fits || !misfit(arm, open.commands, open.load).empty()) {
+  if (!fits || !misfit(arm, open.commands, open.load, options).empty()) {
     solve_alone(open);
     return;
   }

@@ -54,8 +54,9 @@ struct ArmWorkspace::Impl : Rung {
 SE3<double> pose_of(const strain::RodFrame& frame);
 /// Twists of the tip by coordinates, in base axes: 6 rows of `size`.
 std::vector<double> tip_rows(const strain::RodModel& model, const strain::RodWork& work);
-/// What does not fit the arm, in words; empty if all does.
-FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load);
+/// What does not fit the arm, or one option the other, in words; empty if all does.
+FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load,
+                      const ArmOptions& options);
 /// A load as what falls to each node.
 void set_loads(const Arm& arm, const ArmLoad& load, const strain::RodModel& model,
                std::vector<strain::NodeLoad>& loads);

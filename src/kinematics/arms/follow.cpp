@@ -194,8 +194,16 @@ std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> st
     return refuse(Status::bad_input, FixedText<240>("the workspace is for another robot"));
   if (options.balance != ArmBalance::energy)
     return refuse(Status::unsupported, FixedText<240>("paths are followed with the balance by energy alone"));
+  if (options.model == ArmModel::prb)
+    for (std::size_t m = 0; m < arm.sections.size(); ++m)
+      if (arm.sections[m].discs.count == 0)
+        return refuse(
+            Status::unsupported,
+            FixedText<240>(fmt::format("joints (prb) have no guides along the channels of section {}, "
+                                       "on which tendons rub: take another model",
+                                       m)));
   for (std::size_t k = 0; k < steps.size(); ++k)
-    if (const auto text = misfit(arm, steps[k].commands, steps[k].load); !text.empty())
+    if (const auto text = misfit(arm, steps[k].commands, steps[k].load, options); !text.empty())
       return refuse(Status::bad_input, FixedText<240>(fmt::format("step {}: {}", k + 1, text.view())));
   for (std::size_t k = 0; k < steps.size(); ++k)
     if (steps[k].divisions < 1)

@@ -83,7 +83,8 @@ bool finite(std::span<const double> values) {
 
 }  // namespace
 
-FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load) {
+FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load,
+                      const ArmOptions& options) {
   FixedText<240> text;
   const auto say = [&](const std::string& words) { text = FixedText<240>(words); };
   if (commands.size() != arm.tendons.size()) {
@@ -108,6 +109,8 @@ FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, c
       say(fmt::format("a load at {} m is not on the arm, which is {} m long", point.place, arm.length()));
   }
   if (!all) say("a load is not finite");
+  if (const auto words = basis_misfit(options.model, options.order, options.elements); !words.empty())
+    say(words);
   return text;
 }
 
@@ -245,6 +248,7 @@ ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
       const Resolution chosen = resolution_at(options, wanted);
       basis.order = chosen.order, basis.elements = chosen.elements;
     }
+    basis.elements = elements_of(basis);
     entry = std::make_unique<ArmRod>(make_rod(arm, basis, breaks));
     if (basis.elements = lean_elements(options, basis); basis.elements > 0) {
       entry->lean = std::make_unique<ArmRod>(make_rod(arm, basis, breaks));
@@ -334,7 +338,8 @@ Report refusal(const Arm& arm, std::span<const TendonCommand> commands, const Ar
                const ArmOptions& options, const ArmWorkspace::Impl& impl) {
   if (impl.robot != arm.identity)
     return {Status::bad_input, 0, 0, FixedText<240>("the workspace is for another robot")};
-  if (const auto text = misfit(arm, commands, load); !text.empty()) return {Status::bad_input, 0, 0, text};
+  if (const auto text = misfit(arm, commands, load, options); !text.empty())
+    return {Status::bad_input, 0, 0, text};
   return fits_balance(arm, commands, load, options);
 }
 
@@ -381,12 +386,8 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   impl.balances = found.status == Status::converged;
   set_report(state.report, found, impl, impl.rod());
   if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));
-  if (ladder.refines() && state.report.ok() && state.resolution > 10 * ladder.wanted()) {
-    state.report.status = Status::stalled;
-    state.report.message = FixedText<240>(fmt::format(
-        "the finest polynomials still move the tip by {:.1e} m: loads or tensions are too large for this arm",
-        state.resolution));
-  }
+  if (ladder.refines() && state.report.ok())
+    report_coarse(state.resolution, options.accuracy, arm.length(), "tip", state.report);
   state.stable = found.negative == 0;
   state.stability_told = by_energy;
   write_state(arm, impl);

@@ -86,8 +86,9 @@ ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const ArmLoad& l
     best.state = work.impl().state;
     return best;
   };
-  const std::string_view text =
-      arm.tendons.empty() ? "the arm has no tendons that could move its tip" : target_misfit(target);
+  std::string text(arm.tendons.empty() ? "the arm has no tendons that could move its tip"
+                                       : target_misfit(target));
+  if (text.empty()) text = basis_misfit(options.arm.model, options.arm.order, options.arm.elements);
   if (!text.empty()) {
     answer({Status::bad_input, 0, 0, FixedText<240>(text)});
     best.state.report = best.report;

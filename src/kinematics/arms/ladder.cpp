@@ -1,5 +1,7 @@
 #include "kinematics/arms/ladder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -47,6 +49,17 @@ double distance(const strain::Three& a, const strain::Three& b) {
 
 strain::Three difference(const strain::Three& a, const strain::Three& b, double share) {
   return {share * (a[0] - b[0]), share * (a[1] - b[1]), share * (a[2] - b[2])};
+}
+
+/// An error beyond so many times the accuracy is reported [1]: it is an estimate by two polynomials, and less
+/// would refuse answers that are good enough.
+constexpr double reported_multiple = 10;
+constexpr std::string_view coarse_words = "the finest polynomials still";
+
+/// The least accuracy of one digit that is not below an error over the length.
+double enough_for(double error) {
+  const double digit = std::pow(10, std::floor(std::log10(error)));
+  return std::min(1.0, std::ceil(error / digit * (1 - 1e-12)) * digit);
 }
 
 /// From where on a tip that moves says nothing of errors, over the arm's length.
@@ -97,6 +110,20 @@ Resolution resolution_at(const ArmOptions& options, int level) {
   const auto resolutions = resolutions_of(options);
   const Resolution& finer = resolutions[at((level + 1) / 2)];
   return {level % 2 == 0 ? finer.order : resolutions[at(level / 2)].order, finer.elements};
+}
+
+void report_coarse(double error, double accuracy, double length, std::string_view what, Report& report) {
+  const double wanted = accuracy * length;
+  if (!(error > reported_multiple * wanted)) return;
+  report.status = Status::stalled;
+  report.message = FixedText<240>(fmt::format(
+      "{} move the {} by {:.1e} m, accuracy: {:.1g} asks for {:.1e} m: give accuracy: {:.0e} or more, "
+      "or smaller loads and tensions",
+      coarse_words, what, error, accuracy, wanted, enough_for(error / length)));
+}
+
+bool is_coarse(const Report& report) {
+  return report.status == Status::stalled && report.message.view().starts_with(coarse_words);
 }
 
 double size_of_variation(const strain::RodModel& model, const std::vector<double>& y) {

@@ -5,6 +5,7 @@
 #pragma once
 #include <array>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "sinew/kinematics/arm.hpp"
@@ -29,6 +30,15 @@ Resolution resolution_at(const ArmOptions& options, int level);
 /// Of bending and torsion what is not constant along a piece, over √(EI/L): what errors come from. The
 /// highest modes alone would not tell: by symmetry they may be next to none.
 double size_of_variation(const strain::RodModel& model, const std::vector<double>& y);
+
+/// Says so where an error is far from the accuracy that was asked: `stalled`.
+/// @param error that the finest polynomials leave [m]
+/// @param accuracy that was asked, over that length
+/// @param length of an arm, or the size of legs [m]
+/// @param what is moved by that error, in words
+void report_coarse(double error, double accuracy, double length, std::string_view what, Report& report);
+/// Whether a report is that: there is an equilibrium, and looking for another one does not help.
+bool is_coarse(const Report& report);
 
 /// What the last question leaves to the next one.
 struct Rung {

@@ -49,12 +49,13 @@ ArmSensed arm_sense(const Arm& arm, const ArmMeasurement& measured, const ArmLoa
                     const ArmOptions& options, ArmWorkspace& work) {
   ArmSensed sensed;
   const std::size_t unknowns = force_alone ? 3 : 6;
-  auto misfit =
+  std::string misfit(
       measurement_misfit(arm.tendons.size(), measured.held, measured.answers, measured.tip ? 3 : 0, unknowns,
-                         {measured.tension_deviation, measured.change_deviation, measured.tip_deviation});
+                         {measured.tension_deviation, measured.change_deviation, measured.tip_deviation}));
   const auto finite = [](double x) { return std::isfinite(x); };
   if (misfit.empty() && measured.tip && !std::ranges::all_of(*measured.tip, finite))
     misfit = "the tip's place is not finite";
+  if (misfit.empty()) misfit = basis_misfit(options.model, options.order, options.elements);
   if (!misfit.empty()) {
     sensed.report = {Status::bad_input, 0, 0, FixedText<240>(misfit)};
     sensed.state = work.impl().state;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/document/reader.hpp"
+#include "kinematics/arms/ladder.hpp"
 #include "query/batch/sampler.hpp"
 #include "query/questions.hpp"
 
@@ -252,7 +253,8 @@ void ArmQuestion<Arms>::tell() {
   const bool planar = is_planar(robot);
   this->report(found_);
   if (has_friction(robot)) this->add_message(without_friction(robot));
-  if (state_.report.status == Status::stalled && ask == Ask::forward && !wants_all && !until)
+  if (state_.report.status == Status::stalled && !is_coarse(state_.report) && ask == Ask::forward &&
+      !wants_all && !until)
     this->add_message(other_beginnings(robot));
   if (found_.status == Status::bad_input || is_refused(state_)) return;
   put_arm_state(*this, state_, found_);

@@ -177,6 +177,10 @@ void put_stiffness(ArmContext& context, const ArmRates& rates) {
   for (std::size_t i = 0; i < 6; ++i) identity[7 * i] = 1;
   if (solve(MatrixView(rates.compliance.data(), 6, 6), {identity.data(), 6, 6}, stiffness))
     context.answer["stiffness"] = Value(MatrixView(stiffness.data(), 6, 6));
+  else
+    context.add_message(
+        "the stiffness is not finite: by this model the tip yields in fewer than six directions, those of "
+        "compliance");
 }
 void put_stiffness(ArmLegsContext& context, const ArmLegsRates& rates) {
   if (rates.has_stiffness)

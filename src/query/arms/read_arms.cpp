@@ -10,6 +10,7 @@
 #include "leg/space.hpp"
 #include "query/arms/arms.hpp"
 #include "query/tip.hpp"
+#include "robot/arms/arm_model.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
@@ -160,6 +161,30 @@ ArmLegsPointLoad read_point_load(const ArmLegs& robot, Reader& load) {
 
 }  // namespace
 
+namespace {
+
+bool has_weight(const Arm& arm) {
+  return arm.tip_mass > 0 || std::ranges::any_of(arm.sections, [](const ArmSection& section) {
+           return section.start.mass > 0 || section.end.mass > 0 ||
+                  (section.discs.count > 0 && section.discs.mass > 0);
+         });
+}
+bool has_weight(const ArmLegs& robot) {
+  return robot.platform_mass > 0 ||
+         std::ranges::any_of(robot.legs, [](const ArmLeg& leg) { return has_weight(leg.arm); });
+}
+constexpr std::string_view no_weight(const Arm&) {
+  return "has no effect: nothing of this robot has a mass; give its backbones a density, its discs or its "
+         "tip "
+         "a mass";
+}
+constexpr std::string_view no_weight(const ArmLegs&) {
+  return "has no effect: nothing of this robot has a mass; give its backbones a density, its discs or its "
+         "platform a mass";
+}
+
+}  // namespace
+
 template <class Arms>
 typename ArmTypes<Arms>::Load read_arm_load(const Arms& robot, Reader& place,
                                             typename ArmTypes<Arms>::Load load) {
@@ -179,7 +204,10 @@ typename ArmTypes<Arms>::Load read_arm_load(const Arms& robot, Reader& place,
     load.points.clear();
     for (Reader& point : points->items()) load.points.push_back(read_point_load(robot, point));
   }
-  if (const auto gravity = place.optional("gravity")) load.gravity = read_gravity_of(*gravity, planar);
+  if (const auto gravity = place.optional("gravity")) {
+    if (!has_weight(robot)) gravity->fail("no_effect", no_weight(robot));
+    load.gravity = read_gravity_of(*gravity, planar);
+  }
   return load;
 }
 template ArmLoad read_arm_load(const Arm&, Reader&, ArmLoad);
@@ -199,13 +227,16 @@ ArmOptions read_arm_options(Question& context, int usual_iterations) {
                                                       {"projected", ArmBalance::projected},
                                                       {"collocated", ArmBalance::collocated},
                                                       {"closed_form", ArmBalance::closed_form}});
-  if (const auto order = query.optional("order")) options.order = order->integer(Range::between(0, 9));
+  const auto order = query.optional("order");
+  if (order) options.order = order->integer(Range::between(0, 9));
   if (const auto elements = query.optional("elements")) {
     const bool joints = options.model == ArmModel::prb;
     options.elements = elements->integer(Range::between(1, joints ? 10 : 200));
+    const std::string words = basis_misfit(options.model, options.order, options.elements);
+    if (!words.empty()) order->fail("out_of_range", words);
   }
   if (const auto accuracy = query.optional("accuracy"))
-    options.accuracy = accuracy->number({.low = 0, .high = 1});
+    options.accuracy = accuracy->number({.low = 0, .high = 1, .low_excluded = true});
   options.max_iterations = context.max_iterations.value_or(usual_iterations);
   return options;
 }

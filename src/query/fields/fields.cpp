@@ -132,9 +132,9 @@ return std::array{
     Field{"distributed_following", point, number, of_arm_paths, "the same in the backbone's own axes [N/m]; in the plane x to its right and y along it"},
     Field{"loads", point_loads, number, of_arm_paths, "on an arm's backbone: a list of place, from the base along it, wrench and, where it turns with the place, following; on legs of sections with the leg, from 0"},
     Field{"balance", word, number, of_arm_paths, "how an arm's equilibrium is written: energy (default), or as published models have it: projected, collocated, closed_form; a path knows energy alone", balances},
-    Field{"order", whole, count, of_arm_paths, "of the polynomials of an arm's strain; default as `accuracy` needs"},
-    Field{"elements", whole, count, of_arm_paths, "of each section (rod) or between two discs (subsegment_rod), joints between two discs (prb)"},
-    Field{"accuracy", quantity, number, of_arm_paths, "of an arm's tip to which polynomials are refined, over its length; default 1e-6"},
+    Field{"order", whole, count, of_arm_paths, "of the polynomials of an arm's strain, 0 to 9, without refinement; default as `accuracy` needs (docs/arm-models.md)"},
+    Field{"elements", whole, count, of_arm_paths, "of each section (rod) or between two discs (subsegment_rod), without refinement; joints between two discs (prb); default as `order` or `accuracy` needs"},
+    Field{"accuracy", quantity, number, of_arm_paths, "of an arm's tip to which polynomials are refined, over its length, above 0 and up to 1; default 1e-6. Without refinement give elements"},
     Field{"tension_limit", quantity, force, {.inverse = of_arms}, "most that a tendon may pull"},
     Field{"force_alone", flag, number, {.statics = of_arms}, "the wrench that is sensed has no moment; default true"},
 

@@ -1,5 +1,7 @@
 #include "robot/arms/arm_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -62,12 +64,24 @@ constexpr std::array<double, 4> beam_links{0.125, 0.35, 0.388, 0.136};
 constexpr std::array<double, 3> beam_stiffness{3.25, 2.84, 2.95};
 constexpr double beam_length = beam_links[0] + beam_links[1] + beam_links[2] + beam_links[3];
 
+/// Of bending and torsion where none is asked for.
+int usual_order(ArmModel model) {
+  if (model == ArmModel::cc || model == ArmModel::subsegment_cc) return 0;
+  return model == ArmModel::rod ? 3 : 2;
+}
+
+/// Elements by the order: from the usual ones the quadrature's error, of the fourth power of their length,
+/// falls with each order as that of the polynomials does.
+constexpr std::array<int, 10> elements_between_discs{2, 2, 2, 3, 5, 8, 13, 20, 32, 50},
+    elements_of_section{8, 8, 8, 8, 12, 16, 24, 32, 48, 64};
+
 /// Share of a section's length below which a span is none.
 constexpr double least_span = 1e-9;
 
 class Builder {
  public:
   Builder(const Arm& arm, const ArmBasis& basis) : arm_(arm), basis_(basis) {
+    basis_.elements = elements_of(basis);
     rod_.tendons = static_cast<int>(arm.tendons.size());
     rod_.masses.resize(1);
     rod_.lengths.resize(1);
@@ -111,11 +125,7 @@ class Builder {
   /// Whether there may be a strain of this component.
   bool is_free(std::size_t component) const { return !basis_.in_plane || component % 2 == 0; }
   bool by_section() const { return basis_.model == ArmModel::rod || basis_.model == ArmModel::cc; }
-  int modes() const {
-    if (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc) return 1;
-    if (basis_.order >= 0) return basis_.order + 1;
-    return basis_.model == ArmModel::rod ? 4 : 3;
-  }
+  int modes() const { return order_of(basis_) + 1; }
 
   /// Shares of the section's length at which spans end.
   std::vector<double> span_ends(const ArmSection& section, const std::vector<double>& cuts) const {
@@ -124,7 +134,7 @@ class Builder {
     if (channel) spans = by_section() ? 1 : std::max(basis_.elements, 10);
     std::vector<double> ends;
     for (int k = 1; k <= spans; ++k) ends.push_back(static_cast<double>(k) / spans);
-    if (!channel) return ends;
+    if (!channel || basis_.model == ArmModel::prb) return ends;  // where joints are does not depend on loads
     ends.insert(ends.end(), cuts.begin(), cuts.end());
     std::sort(ends.begin(), ends.end());
     // A load where a span ends anyway, or two loads at one place: a span without length has no strain.
@@ -144,10 +154,7 @@ class Builder {
     if (basis_.model == ArmModel::cc) begin_piece(section, 0, 1, 1, {});
     const std::vector<double> none;
     for (double end : ends) {
-      int elements = basis_.elements;
-      if (elements == 0)
-        elements = basis_.model == ArmModel::rod ? 8 : basis_.model == ArmModel::subsegment_rod ? 2 : 1;
-      if (basis_.model == ArmModel::cc) elements = 1;
+      const int elements = basis_.model == ArmModel::cc ? 1 : basis_.elements;
       if (basis_.twist_at_discs) {
         add_bending(m, start, end, cuts);
         start = end;
@@ -157,30 +164,32 @@ class Builder {
         begin_joints(section, start, end, elements, (end - start) * section.length / elements, true);
       else if (basis_.model != ArmModel::cc)
         begin_piece(section, start, end, modes(), inner_cuts(channel ? none : cuts, start, end));
-      if (channel) {  // every element is a span of its own: no tendon runs straight
+      if (basis_.model == ArmModel::prb) {
+        begin_span();
+        add_joints(m, start, end, elements, cuts);
+        if (!channel) {
+          add_holes(m, start, end);
+          rod_.masses.back().amount += section.discs.mass;
+        }
+      } else if (channel) {  // every element is a span of its own: no tendon runs straight
         for (int e = 0; e < elements; ++e) {
           const double a = start + (end - start) * e / elements,
                        b = start + (end - start) * (e + 1) / elements;
           begin_span();
-          add_elements(m, a, b, start, end, e, elements);
+          add_elements(m, a, b);
         }
       } else {
         begin_span();
-        if (basis_.model == ArmModel::prb) {
-          add_joints(section, start, end, elements, cuts);
-        } else {
-          // Each stretch has as many elements as a whole span: its polynomials need their Gauss points.
-          std::vector<double> stops{start};
-          for (const double cut : cuts)
-            if (cut > start + 1e-9 && cut < end - 1e-9 && cut > stops.back() + 1e-9) stops.push_back(cut);
-          stops.push_back(end);
-          for (std::size_t k = 0; k + 1 < stops.size(); ++k)
-            for (int e = 0; e < elements; ++e) {
-              const double length = stops[k + 1] - stops[k];
-              add_elements(m, stops[k] + length * e / elements, stops[k] + length * (e + 1) / elements, start,
-                           end, e, elements);
-            }
-        }
+        // Each stretch has as many elements as a whole span: its polynomials need their Gauss points.
+        std::vector<double> stops{start};
+        for (const double cut : cuts)
+          if (cut > start + 1e-9 && cut < end - 1e-9 && cut > stops.back() + 1e-9) stops.push_back(cut);
+        stops.push_back(end);
+        for (std::size_t k = 0; k + 1 < stops.size(); ++k)
+          for (int e = 0; e < elements; ++e) {
+            const double length = stops[k + 1] - stops[k];
+            add_elements(m, stops[k] + length * e / elements, stops[k] + length * (e + 1) / elements);
+          }
         add_holes(m, start, end);
         rod_.masses.back().amount += section.discs.mass;
       }
@@ -224,8 +233,9 @@ class Builder {
   }
 
   /// Joints in the middle of even links, and rigid links between them and point loads.
-  void add_joints(const ArmSection& section, double start, double end, int joints,
-                  const std::vector<double>& cuts) {
+  void add_joints(int m, double start, double end, int joints, const std::vector<double>& cuts) {
+    const ArmSection& section = arm_.sections[at(m)];
+    const double length = (end - start) * section.length / joints;
     std::vector<std::pair<double, int>> stops;
     for (int k = 0; k < joints; ++k) stops.emplace_back(start + (end - start) * (k + 0.5) / joints, k);
     for (const double cut : cuts)
@@ -234,7 +244,8 @@ class Builder {
     double a = start;
     for (const auto& [place, joint] : stops) {
       if (place > a) add_rigid(section, a, place);
-      if (joint >= 0) add_joint(section, place, joint, (end - start) * section.length / joints);
+      if (joint >= 0) add_joint(section, place, joint, length);
+      if (joint >= 0 && section.discs.count == 0) add_joint_guides(m, place, length);
       a = place;
     }
     add_rigid(section, a, end);
@@ -260,10 +271,10 @@ class Builder {
       double a = start;
       for (const double cut : cuts)
         if (cut > start + 1e-12 && cut < end - 1e-12) {
-          add_elements(m, a, cut, start, end, 0, 1);
+          add_elements(m, a, cut);
           a = cut;
         }
-      add_elements(m, a, end, start, end, 0, 1);
+      add_elements(m, a, end);
     }
     for (Element* e = &rod_.elements[at(rod_.spans.back().first_element)]; e != &rod_.elements.back() + 1;
          ++e)
@@ -313,12 +324,14 @@ class Builder {
     const Six stiffness{here.shear, here.shear, here.stretch, here.bending_x, here.bending_y, here.torsion};
     piece.stretches = static_cast<int>(cuts.size()) + 1;
     modes = std::min(modes, strain::max_piece / 6 / piece.stretches);
-    const bool fine = basis_.order < 0 && cuts.empty();  // what is stiff follows with one order less
+    // What is stiff follows with one order less than the model's.
+    const bool fine = basis_.order < 0 && cuts.empty();
+    const int stiff_modes = fine ? std::min(modes, usual_order(basis_.model)) : modes;
     for (std::size_t c = 0; c < 6; ++c) {
       if (stiffness[c] <= 0 || !is_free(c)) continue;
       if (c == 5 && basis_.twist_at_discs) continue;
       if (c < 3 && (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc)) continue;
-      piece.modes[c] = piece.stretches * (fine && c < 3 && modes > 1 ? modes - 1 : modes);
+      piece.modes[c] = piece.stretches * (c < 3 ? stiff_modes : modes);
       piece.scale[c] = 1 / std::sqrt(stiffness[c]);
       piece.offset[c] = piece.size;
       piece.size += piece.modes[c];
@@ -373,15 +386,8 @@ class Builder {
     ++rod_.pieces.back().spans;
   }
 
-  void add_elements(int m, double a, double b, double start, double end, int joint, int joints) {
+  void add_elements(int m, double a, double b) {
     const ArmSection& section = arm_.sections[at(m)];
-    if (basis_.model == ArmModel::prb) {
-      const double middle = 0.5 * (a + b);
-      add_rigid(section, a, middle);
-      add_joint(section, middle, joint, (end - start) * section.length / joints);
-      add_rigid(section, middle, b);
-      return;
-    }
     Element element = straight(section, a, b);
     while (at(element.stretch) + 2 < stretches_.size() && stretches_[at(element.stretch) + 1] <= a + 1e-12)
       ++element.stretch;
@@ -468,6 +474,27 @@ class Builder {
       ++element.guides;
     }
   }
+  /// Where the last joint stands for so much of a channel: there v + u × r + dr/ds times the length is that
+  /// of the straight link, and u times the length is the joint's turn.
+  void add_joint_guides(int m, double place, double length) {
+    Element& joint = rod_.elements.back();
+    const ArmSection& section = arm_.sections[at(m)];
+    const auto& [ux, uy, uz] = section.curvature;
+    joint.first_guide = static_cast<int>(rod_.guides.size());
+    for (std::size_t i = 0; i < arm_.tendons.size(); ++i) {
+      const ArmTendon& tendon = arm_.tendons[i];
+      if (tendon.section() < m) continue;
+      const Three r = place_of(tendon.routes[at(m)], place),
+                  slope = slope_of(tendon.routes[at(m)], place, section.length);
+      Guide guide;
+      guide.tendon = static_cast<int>(i);
+      guide.place[0] = r;
+      guide.slope[0] = {length * (slope[0] - uz * r[1]), length * (slope[1] + uz * r[0]),
+                        length * (1 + ux * r[1] - uy * r[0])};
+      rod_.guides.push_back(guide);
+      ++joint.guides;
+    }
+  }
   void add_holes(int m, double start, double end) {
     for (std::size_t i = 0; i < arm_.tendons.size(); ++i) {
       const ArmTendon& tendon = arm_.tendons[i];
@@ -510,6 +537,30 @@ CrossSection rectangular_section(const Material& material, double along_x, doubl
           material.young * area,
           material.shear * area * 5 / 6,
           material.density * area};
+}
+
+int elements_of(const ArmBasis& basis) {
+  if (basis.elements > 0) return basis.elements;
+  if (basis.model != ArmModel::rod && basis.model != ArmModel::subsegment_rod) return 1;
+  const auto& by_order = basis.model == ArmModel::rod ? elements_of_section : elements_between_discs;
+  const int order = basis.order < 0 ? usual_order(basis.model) : basis.order;
+  return std::max(by_order[std::min(at(order), by_order.size() - 1)], order / 2 + 1);
+}
+
+std::string basis_misfit(ArmModel model, int order, int elements) {
+  const bool has_polynomials = model == ArmModel::rod || model == ArmModel::subsegment_rod;
+  if (!has_polynomials || order < 0 || elements <= 0 || order <= most_order(elements)) return "";
+  return fmt::format(
+      "polynomials of order {} need at least {} elements, found {}: two Gauss points in each have to tell "
+      "their "
+      "{} coefficients; give more elements, an order up to {}, or leave elements out",
+      order, order / 2 + 1, elements, order + 1, most_order(elements));
+}
+
+int order_of(const ArmBasis& basis) {
+  if (basis.model != ArmModel::rod && basis.model != ArmModel::subsegment_rod)
+    return usual_order(basis.model);
+  return basis.order < 0 ? std::min(usual_order(basis.model), most_order(elements_of(basis))) : basis.order;
 }
 
 strain::RodModel make_rod(const Arm& arm, const ArmBasis& basis, const std::vector<double>& breaks) {

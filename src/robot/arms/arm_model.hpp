@@ -1,6 +1,8 @@
 /// @file arm_model.hpp
 /// An arm and a choice of strains as a rod.
 #pragma once
+#include <string>
+
 #include "sinew/robot/arm.hpp"
 #include "strain/rod_model.hpp"
 
@@ -23,6 +25,17 @@ struct ArmBasis {
   double strut_angle = 0;      ///< of the bar to the last section at rest, about y [rad]
   /// @}
 };
+
+/// How many elements a basis has: where it says none, as many as its order needs, so that an error is that of
+/// the polynomials and not that of the quadrature.
+int elements_of(const ArmBasis& basis);
+/// The order at most that so many elements determine. Elasticity is seen at their Gauss points, two in each:
+/// more coefficients than points would leave shapes that bend and cost no energy.
+constexpr int most_order(int elements) { return 2 * elements - 1; }
+/// Why these polynomials are not determined by so many elements, in words; empty if they are.
+std::string basis_misfit(ArmModel model, int order, int elements);
+/// The order of bending and torsion: where the basis says none, the model's, or what its elements determine.
+int order_of(const ArmBasis& basis);
 
 /// @param breaks where point loads act, from the base [m]: nodes are there
 strain::RodModel make_rod(const Arm& arm, const ArmBasis& basis, const std::vector<double>& breaks = {});

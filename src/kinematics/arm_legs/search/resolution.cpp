@@ -1,7 +1,5 @@
 #include "kinematics/arm_legs/search/resolution.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "base/at.hpp"
@@ -12,10 +10,6 @@ namespace {
 
 /// Levels of polynomials at most [1]: between discs an arm has one more, finer than legs are refined to.
 constexpr std::size_t most_levels = 5;
-/// An error beyond so many times the accuracy is reported [1]: it is an estimate by two polynomials, and less
-/// would refuse answers that are good enough.
-constexpr double reported_multiple = 10;
-
 /// By how much polynomials that are finer move the platform, or would if it were free [m].
 double moved_by(ArmGroup& coarse, ArmGroup& fine, bool is_pose_prescribed) {
   const auto &a = coarse.platform(), &b = fine.platform();
@@ -83,13 +77,6 @@ LegsFound refine_levels(const ArmLegs& robot, const LegsProblem& problem, const 
     if (impl.state.resolution <= options.accuracy * legs_size(robot)) break;
   }
   return found;
-}
-
-void report_coarse(double error, double wanted, Report& report) {
-  if (!(error > reported_multiple * wanted)) return;
-  report.status = Status::stalled;
-  report.message = FixedText<240>(fmt::format(
-      "the finest polynomials still move the platform by {:.1e} m: loads or tensions are too large", error));
 }
 
 ArmGroup::Wrench constraint_wrench(ArmGroup& group) {

@@ -25,8 +25,6 @@ struct Refinement {
 /// @param found how the search at the workspace's level ended; @returns how it ended at the last
 LegsFound refine_levels(const ArmLegs& robot, const LegsProblem& problem, const ArmOptions& options,
                         ArmLegsWorkspace& work, Refinement how, NewtonBudget& budget, LegsFound found);
-/// Says so where an error is far from the accuracy that was asked.
-void report_coarse(double error, double wanted, Report& report);
 
 /// What the legs need on the platform beyond weight and wrench.
 ArmGroup::Wrench constraint_wrench(ArmGroup& group);

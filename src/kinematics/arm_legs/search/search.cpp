@@ -104,7 +104,8 @@ class EquilibriumSearch {
       report.message = FixedText<240>(
           "from the last equilibrium none that holds was found on the way here; this is what the rest grows "
           "into");
-    if (report.ok()) report_coarse(state.resolution, wanted(), report);
+    if (report.ok())
+      report_coarse(state.resolution, options_.accuracy, legs_size(robot_), "platform", report);
   }
   /// A platform at a prescribed pose is let go under the wrench that keeps it there.
   void write_stability() {
@@ -115,7 +116,6 @@ class EquilibriumSearch {
     group_->evaluate();
     state.stable = is_stable(*group_, false);
   }
-  double wanted() const { return options_.accuracy * legs_size(robot_); }
 
   const ArmLegs& robot_;
   const LegsProblem& problem_;
