@@ -67,6 +67,60 @@ TEST(PlanarArmLegsQuery, OfConstantCurvatureItIsTheKinematicRobot) {
   }
 }
 
+Json same_of_all(const Json& pair) { return {pair, pair, pair, pair, pair, pair}; }
+
+/// Legs of these models do not stretch and tendons neither: two of a section hold one bend twice.
+TEST(PlanarArmLegsQuery, TendonsThatHoldEachOtherHaveTheLeastTensions) {
+  for (const char* model : {"cc", "subsegment_cc", "prb"}) {
+    const Json rest = {{"query", "forward"}, {"model", model}, {"changes", same_of_all({0, 0})}};
+    const Json pulled = {{"query", "forward"}, {"model", model}, {"tensions", same_of_all({1, 1})}};
+    const auto answers = ask(robot, {rest, pulled});
+    for (const Json& found : answers) {
+      ASSERT_EQ(found["status"], "converged") << model << found.dump();
+      EXPECT_LT(std::abs(found["pose"]["x"].get<double>()), 1e-9) << model;
+    }
+    for (const Json& pair : answers[0]["tensions"])
+      for (const Json& tension : pair) EXPECT_LT(tension.get<double>(), 1e-9) << model;
+  }
+}
+
+TEST(PlanarArmLegsQuery, ChangesOfTensionsLeadBackToTheirPose) {
+  const Json tensions = {{1.27, 1.93}, {0.72, 1.92}, {0.97, 1.13}, {1.74, 1.11}, {1.32, 0.54}, {1.63, 1.31}};
+  for (const char* model : {"cc", "subsegment_cc", "prb", "subsegment_rod"}) {
+    Json question = {{"query", "forward"}, {"model", model}, {"wrench", {0.05, 0.04, 0.002}}};
+    question["tensions"] = tensions;
+    const Json there = ask(robot, {question})[0];
+    ASSERT_EQ(there["status"], "converged") << there.dump();
+    question.erase("tensions");
+    question["changes"] = there["changes"];
+    const Json back = ask(robot, {question})[0];
+    ASSERT_EQ(back["status"], "converged") << model << back.dump();
+    for (const char* key : {"x", "y", "phi"})
+      EXPECT_NEAR(back["pose"][key].get<double>(), there["pose"][key].get<double>(), 1e-8) << model;
+    // Sections of one bend each: of a pair one tendon holds it.
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double tension = back["tensions"][i][k], before = tensions[i][k];
+        if (model == std::string("cc"))
+          EXPECT_LT(tension, before) << i << k;
+        else
+          EXPECT_NEAR(tension, before, 1e-3) << model << i << k;
+      }
+  }
+}
+
+TEST(PlanarArmLegsQuery, ATendonThatIsTooShortIsNamed) {
+  Json changes = same_of_all({0, 0});
+  changes[3][0] = -1e-6;
+  for (const char* model : {"cc", "subsegment_cc", "prb"}) {
+    const Json found = ask(robot, {{{"query", "forward"}, {"model", model}, {"changes", changes}}})[0];
+    EXPECT_EQ(found["status"], "unreachable") << model;
+    EXPECT_NE(found["message"].get<std::string>().find("of leg 1 does not stretch and is held too short"),
+              std::string::npos)
+        << found["message"];
+  }
+}
+
 /// What turns with a place is in its axes, x to the right of the way along the backbone and y along it. Small
 /// loads: as dead ones in these axes at rest, but for how far they turn.
 TEST(PlanarArmLegsQuery, WhatTurnsIsInTheAxesOfItsPlace) {
