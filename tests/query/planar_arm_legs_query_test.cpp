@@ -109,6 +109,46 @@ TEST(PlanarArmLegsQuery, ChangesOfTensionsLeadBackToTheirPose) {
   }
 }
 
+/// Of tensions that lengths do not determine, whatever was measured explains itself; and where the way from
+/// no wrench has no equilibrium the search begins elsewhere.
+TEST(PlanarArmLegsQuery, ExactTensionsTellTheWrench) {
+  const Json tensions = {{1.81, 0.74}, {1.41, 1.04}, {1.27, 0.95}, {1.55, 1.09}, {0.77, 1.34}, {1.79, 0.97}};
+  const std::vector<double> wrench{0.05, 0.04, 0.002};
+  const Json load = {{"leg", 1}, {"place", 0.1}, {"wrench", {0.05, -0.02, 0}}};
+  for (const char* model : {"cc", "subsegment_cc", "prb"})
+    for (const bool has_loads : {true, false}) {
+      Json question = {{"query", "forward"}, {"model", model}};
+      if (has_loads) question["distributed"] = {0.1, 0.2, 0}, question["loads"] = Json::array({load});
+      Json forward = question;
+      forward["tensions"] = tensions;
+      forward["wrench"] = wrench;
+      const Json there = ask(robot, {forward})[0];
+      ASSERT_EQ(there["status"], "converged") << there.dump();
+      question["query"] = "statics";
+      question["changes"] = there["changes"];
+      question["deviation"] = 0.01;
+      question["force_alone"] = false;
+      question["measured_tensions"] = Json::array();
+      for (const Json& pair : tensions)
+        for (const Json& tension : pair) question["measured_tensions"].push_back(tension);
+      const Json found = ask(robot, {question})[0];
+      ASSERT_EQ(found["status"], "converged") << model << found.dump();
+      EXPECT_LT(found["misfit"], 1e-3) << model;
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found["wrench"][i], wrench[i], 1e-5) << model << i;
+      EXPECT_FALSE(found.contains("message")) << found["message"];
+    }
+}
+
+TEST(PlanarArmLegsQuery, WhatNoWrenchExplainsIsSaid) {
+  const Json found = ask(robot, {{{"query", "statics"},
+                                  {"changes", same_of_all({-1e-3, 1e-3})},
+                                  {"measured_tensions", {2, 0, 3, 0, 2, 0, 1, 0, 9, 0, 2, 0}},
+                                  {"deviation", 0.01},
+                                  {"force_alone", false}}})[0];
+  EXPECT_TRUE(found.contains("message")) << found.dump();
+  EXPECT_GT(found["misfit"], 5) << found.dump();
+}
+
 TEST(PlanarArmLegsQuery, ATendonThatIsTooShortIsNamed) {
   Json changes = same_of_all({0, 0});
   changes[3][0] = -1e-6;

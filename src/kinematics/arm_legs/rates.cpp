@@ -13,7 +13,7 @@ ArmLegsRates arm_legs_rates(const ArmLegs& robot, ArmLegsWorkspace& work) {
   ArmGroup::Matrix twists, by_tendon;
   if (!group.factor_limbs()) return rates;
   rates.opposed = group.has_redundant_tendons();
-  rates.regular = !rates.opposed && group.answers(twists, by_tendon);
+  rates.regular = group.answers(twists, by_tendon);
   if (!rates.regular) return rates;
   const auto flat = [](const ArmGroup::Matrix& matrix) {
     return std::vector<double>(matrix.data(), matrix.data() + matrix.size());

@@ -68,6 +68,7 @@ ArmSensed arm_sense(const Arm& arm, const ArmMeasurement& measured, const ArmLoa
                                            .from_last = options.from_last},
                                           body);
   sensed.report = found.report;
+  report_misfit(found.misfit, sensed.report);
   for (std::size_t k = 0; k < 6; ++k) sensed.wrench[k] = found.wrench[k] - load.wrench[k];
   sensed.covariance = found.covariance;
   sensed.misfit = found.misfit;

@@ -1,5 +1,7 @@
 #include "kinematics/arms/sense_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +31,9 @@ constexpr double least_wrench = 1e-6;
 /// more than half of it [1]: shorter at once, for a step costs an equilibrium, and longer as quickly, for the
 /// first is a guess.
 constexpr double shorter_radius = 0.25, longer_radius = 3;
+/// What rates promise of the squares is more than rounding where it is more than this [1] and more than this
+/// share of them [1].
+constexpr double least_promise = 1e-3, promised_share = 1e-2;
 /// Below this ratio of eigenvalues [1] rounding hides the wrench's worst known direction: a slender arm
 /// yields a million times more across than along, so that its squares have 1e-12.
 constexpr double smallest_ratio = 1e-15;
@@ -67,6 +72,7 @@ class WrenchSteps {
         radius_ = shorter_radius * step_size();
         if (radius_ < least_radius * std::max(wrench_size(), least_wrench)) {  // as near as rounding lets it
           load(from_last, round, spent);
+          if (sensed_.report.is_solved() && is_hindered()) return hindered();
           return sensed_.report.is_solved() ? with_covariance() : sensed_;
         }
         step_ = step_within_radius();
@@ -168,6 +174,23 @@ class WrenchSteps {
         sensed_.covariance[which[i] * 6 + which[j]] = inverse[i * unknowns + j] * scale(i) * scale(j);
     return sensed_;
   }
+  /// Whether rates promise a smaller misfit where no step leads to one.
+  bool is_hindered() const {
+    const auto n = static_cast<Eigen::Index>(side_.size());
+    std::vector<double> normal = normal_, step(side_.size());
+    if (!solve({normal.data(), n, n}, {side_.data(), n, 1}, step)) return false;
+    double promised = 0;
+    for (std::size_t i = 0; i < step.size(); ++i) promised += side_[i] * step[i];
+    return promised > std::max(least_promise, promised_share * before_);
+  }
+  FoundWrench hindered() {
+    sensed_.report.status = Status::stalled;
+    sensed_.report.message = FixedText<240>(
+        "the search for a wrench ends where rates promise a smaller misfit and no step leads to one: "
+        "wrenches on "
+        "the way may hold in another equilibrium or in none; give a start nearer to what was measured");
+    return sensed_;
+  }
   FoundWrench unsettled() {
     sensed_.report = {
         Status::iteration_limit, sensed_.report.iterations, sensed_.report.residual,
@@ -209,6 +232,17 @@ std::string_view measurement_misfit(std::size_t tendons, const std::vector<Tendo
   if (count < unknowns)
     return "less is measured than a wrench has components: measure more, or ask the force alone";
   return {};
+}
+
+void report_misfit(double misfit, Report& report) {
+  if (!report.message.empty()) return;
+  if (report.status == Status::converged && misfit > large_misfit)
+    report.message = FixedText<240>(
+        fmt::format("no wrench that was found explains what was measured: the nearest leaves {:.3g} standard "
+                    "deviations of it. Something else acts or was measured, or the search ended too early",
+                    misfit));
+  else if (report.status == Status::iteration_limit || report.status == Status::stalled)
+    report.message = FixedText<240>("the search for a wrench lost the equilibrium on its way");
 }
 
 FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body) {

@@ -64,6 +64,12 @@ struct FoundWrench {
   double condition =
       0;  ///< of the wrench, moments over the length: best known over worst known direction [1]
 };
+/// A misfit beyond which what is measured is not explained [1]: of errors as large as they are said to be it
+/// is about 1, and hardly ever that large.
+inline constexpr double large_misfit = 5;
+/// Says so of a wrench that was found, or that the search was cut off.
+void report_misfit(double misfit, Report& report);
+
 /// The body is left in the equilibrium of the answer, or near it.
 FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body);
 

@@ -112,6 +112,9 @@ class ArmGroup final : public LimbGroup<Spatial> {
   /// Tendons that do not stretch pull against one another, and nothing that is prescribed determines with
   /// what. After `factor_limbs`.
   bool has_redundant_tendons() const;
+  /// Tensions of which any multiple may be added without any change of shape, columns without dimension: of
+  /// tendons that are as long as their way and hold a leg more often than once. After `factor_limbs`.
+  Eigen::MatrixXd undetermined_tensions() const;
   /// By how much the planned step changes tensions that are not determined, to the least ones, over usual
   /// tensions. After `factor_limbs`.
   double relief() const;
@@ -160,6 +163,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
     Vec<double, 6> gap = Vec<double, 6>::Zero();  ///< of the rest at home: what closes as the share grows
     strain::NodeLoad tip;                         ///< its weight, and what of loads on the leg acts there
     Vec<double, 6> off = Vec<double, 6>::Zero();  ///< closure's error
+    Eigen::MatrixXd undetermined;                 ///< tensions that act on no strain, a row each tendon
     int taut = 0, closed = 3;                     ///< unknown forces: of tendons, of the closure
     /// Which of force and moment the closure's unknowns are: 0 to 2 and 3 to 5.
     std::array<int, 6> components{0, 1, 2, 3, 4, 5};
@@ -199,6 +203,8 @@ class ArmGroup final : public LimbGroup<Spatial> {
   double missing_length(const Leg& leg, std::size_t index) const;
   double measure_tendons(Leg& leg);
   void leave_out_redundant_tendons(Leg& leg) const;
+  static void set_undetermined(Leg& leg, const std::vector<std::size_t>& tight,
+                               const std::vector<double>& gradients);
   static void relieve(Leg& leg, const std::vector<std::size_t>& tight);
   void evaluate(Leg& leg);
   void set_tendon_rows(Leg& leg) const;

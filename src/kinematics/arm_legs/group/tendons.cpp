@@ -1,6 +1,8 @@
 /// Tendons of the legs: which are taut, and their tensions, changes of length and slack.
 #include "kinematics/arm_legs/group/arm_group.hpp"
 
+#include <Eigen/SVD>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -104,6 +106,7 @@ void ArmGroup::leave_out_redundant_tendons(Leg& leg) const {
          std::abs(missing_length(leg, i)) < rounding_of_ways * leg.own->arm.length()))
       tight.push_back(i);
   }
+  leg.undetermined.resize(static_cast<Eigen::Index>(leg.tendons.size()), 0);
   if (leg.taut == 0 || tight.size() < 2) return;
   const auto urge = [&](std::size_t i) {
     return leg.tendons[i].tension + missing_length(leg, i) / leg.tendons[i].unit;
@@ -136,6 +139,21 @@ void ArmGroup::leave_out_redundant_tendons(Leg& leg) const {
   relieve(leg, tight);
 }
 
+/// @param gradients of the tight tendons' lengths, a row for each strain
+void ArmGroup::set_undetermined(Leg& leg, const std::vector<std::size_t>& tight,
+                                const std::vector<double>& gradients) {
+  const auto count = static_cast<Eigen::Index>(tight.size());
+  const Eigen::Map<const Matrix> rows(gradients.data(), rod(leg).model().size, count);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(rows, Eigen::ComputeFullV);
+  const auto& sizes = parts.singularValues();
+  Eigen::Index rank = 0;
+  while (rank < sizes.size() && sizes[rank] > least_of_its_own * sizes[0]) ++rank;
+  leg.undetermined = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(leg.tendons.size()), count - rank);
+  for (Eigen::Index k = 0; k < count; ++k)
+    leg.undetermined.row(static_cast<Eigen::Index>(tight[static_cast<std::size_t>(k)])) =
+        parts.matrixV().row(k).tail(count - rank);
+}
+
 /// Of all tensions that act on the leg's shape alike the next step goes to those with the least sum of
 /// squares: where tendons are redundant nothing else determines them.
 /// @param tight those that may pull
@@ -150,6 +168,7 @@ void ArmGroup::relieve(Leg& leg, const std::vector<std::size_t>& tight) {
     }
   const std::vector<double> least = bounded_least_squares(
       gradients, force, std::vector<double>(tight.size(), 0.0), std::numeric_limits<double>::infinity());
+  set_undetermined(leg, tight, gradients);
   for (std::size_t k = 0; k < tight.size(); ++k) {
     Tendon& tendon = leg.tendons[tight[k]];
     tendon.relief = least[k] - tendon.tension;
@@ -181,6 +200,17 @@ bool ArmGroup::has_redundant_tendons() const {
       return tendon.is_redundant && tendon.tension > least_pull * usual_tension(leg.own->arm);
     });
   });
+}
+
+Eigen::MatrixXd ArmGroup::undetermined_tensions() const {
+  Eigen::Index count = 0;
+  for (const Leg& leg : legs_) count += leg.undetermined.cols();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(feeds_, count);
+  for (Eigen::Index next = 0; const Leg& leg : legs_) {
+    all.block(leg.first_feed, next, leg.undetermined.rows(), leg.undetermined.cols()) = leg.undetermined;
+    next += leg.undetermined.cols();
+  }
+  return all;
 }
 
 double ArmGroup::relief() const {
