@@ -99,6 +99,29 @@ TEST(ArmQueries, TheForceThatTensionsTell) {
 }
 
 /// A covariance of zeros would say that the wrench is known exactly.
+/// Of a force and a moment six tensions tell two that explain them: the lesser is answered, and the other
+/// told.
+TEST(ArmQueries, AnotherWrenchThatExplainsTensionsIsTold) {
+  const std::vector<double> force{0.05, -0.03, 0.02, 0, 0, 0};
+  const auto ask_two = [](const Json& question) { return ask("two-segment", {question})[0]; };
+  const Json there =
+      ask_two({{"query", "forward"}, {"tensions", {{1.0, 0.5, 0.7}, {0.4, 0.8, 0.3}}}, {"wrench", force}});
+  ASSERT_EQ(there["status"], "converged") << there.dump();
+  Json question = {{"query", "statics"},
+                   {"changes", there["changes"]},
+                   {"measured_tensions", {1.0, 0.5, 0.7, 0.4, 0.8, 0.3}},
+                   {"deviation", 0.01}};
+  question["force_alone"] = false;
+  const Json found = ask_two(question);
+  ASSERT_EQ(found["status"], "converged") << found.dump();
+  EXPECT_LT(found["misfit"], 1e-4);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found["wrench"][i], force[i], 1e-5) << i;
+  EXPECT_EQ(found.value("message", "").rfind("another wrench, [0.022, -0.0174, -0.078", 0), 0U)
+      << found.dump();
+  question["force_alone"] = true;
+  EXPECT_FALSE(ask_two(question).contains("message"));
+}
+
 TEST(ArmQueries, TellsNoCovarianceOfAWrenchThatIsNotTold) {
   const Json loose = ask("tendon-rod", {{{"query", "statics"},
                                          {"changes", {{0, 0, 0, 0}}},

@@ -119,8 +119,8 @@ Report sense_misfit(const ArmLegs& robot, const ArmLegsMeasurement& measured, co
   return misfit;
 }
 
-WrenchSearch search_from(const ArmLegs& robot, const std::array<double, 6>& first, bool force_alone,
-                         const ArmOptions& options) {
+WrenchSearch search_from(const ArmLegs& robot, const ArmLegsLoad& load, const std::array<double, 6>& first,
+                         bool force_alone, const ArmOptions& options) {
   double usual = 0;
   for (const ArmLeg& leg : robot.legs) usual += usual_force(leg.arm);
   return {.first = first,
@@ -128,6 +128,7 @@ WrenchSearch search_from(const ArmLegs& robot, const std::array<double, 6>& firs
           .components = robot.is_planar
                             ? std::array<std::size_t, 6>{plane_axes[0], plane_axes[1], plane_axes[2]}
                             : std::array<std::size_t, 6>{0, 1, 2, 3, 4, 5},
+          .known = load.wrench,
           .length = legs_size(robot),
           .usual = usual,
           .from_last = options.from_last,
@@ -138,7 +139,7 @@ WrenchSearch search_from(const ArmLegs& robot, const std::array<double, 6>& firs
 FoundWrench search_refined(const ArmLegs& robot, const ArmLegsMeasurement& measured, const ArmLegsLoad& load,
                            const std::array<double, 6>& first, double first_step, bool force_alone,
                            const ArmOptions& options, ArmLegsWorkspace& work) {
-  WrenchSearch search = search_from(robot, first, force_alone, options);
+  WrenchSearch search = search_from(robot, load, first, force_alone, options);
   search.usual *= first_step;
   ArmOptions each = options;
   FoundWrench found;
@@ -184,7 +185,7 @@ FoundWrench search_from_tensions(const ArmLegs& robot, const ArmLegsMeasurement&
   FoundWrench found;
   {
     MeasuredLegs body(robot, turned, load, each, work);
-    found = search_wrench(search_from(robot, load.wrench, force_alone, each), body);
+    found = search_wrench(search_from(robot, load, load.wrench, force_alone, each), body);
   }
   if (!found.report.ok()) return found;
   each.from_last = true;
