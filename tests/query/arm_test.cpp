@@ -99,6 +99,27 @@ TEST(ArmQueries, TheForceThatTensionsTell) {
 }
 
 /// A covariance of zeros would say that the wrench is known exactly.
+/// Tips of known tensions are reached by no larger sum of squares.
+TEST(ArmQueries, InverseFindsTheLeastTensionsNearby) {
+  for (const std::vector<double>& pull : {std::vector{1.14, 0.0, 0.78},
+                                          {1.654, 0, 1.321},
+                                          {0, 1.28, 0.865},
+                                          {1.724, 0.814, 0},
+                                          {0.264, 0.61, 0},
+                                          {0, 0.524, 1},
+                                          {0.763, 0.544, 0}}) {
+    const Json there = ask("two-segment", {{{"query", "forward"}, {"tensions", {pull, {0, 0, 0}}}}})[0];
+    const Json found =
+        ask("two-segment", {{{"query", "inverse"}, {"position", there["tip"]["position"]}}})[0];
+    ASSERT_EQ(found["status"], "converged") << found.dump();
+    double sum = 0, given = 0;
+    for (const double tension : pull) given += tension * tension;
+    for (const Json& section : found["tensions"])
+      for (const double tension : section) sum += tension * tension;
+    EXPECT_LT(sum, given) << found["tensions"].dump();
+  }
+}
+
 /// Of a force and a moment six tensions tell two that explain them: the lesser is answered, and the other
 /// told.
 TEST(ArmQueries, AnotherWrenchThatExplainsTensionsIsTold) {
