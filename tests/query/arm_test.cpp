@@ -99,6 +99,50 @@ TEST(ArmQueries, TheForceThatTensionsTell) {
 }
 
 /// A covariance of zeros would say that the wrench is known exactly.
+/// Tips of known tensions are reached by no larger sum of squares.
+TEST(ArmQueries, InverseFindsTheLeastTensionsNearby) {
+  for (const std::vector<double>& pull : {std::vector{1.14, 0.0, 0.78},
+                                          {1.654, 0, 1.321},
+                                          {0, 1.28, 0.865},
+                                          {1.724, 0.814, 0},
+                                          {0.264, 0.61, 0},
+                                          {0, 0.524, 1},
+                                          {0.763, 0.544, 0}}) {
+    const Json there = ask("two-segment", {{{"query", "forward"}, {"tensions", {pull, {0, 0, 0}}}}})[0];
+    const Json found =
+        ask("two-segment", {{{"query", "inverse"}, {"position", there["tip"]["position"]}}})[0];
+    ASSERT_EQ(found["status"], "converged") << found.dump();
+    double sum = 0, given = 0;
+    for (const double tension : pull) given += tension * tension;
+    for (const Json& section : found["tensions"])
+      for (const double tension : section) sum += tension * tension;
+    EXPECT_LT(sum, given) << found["tensions"].dump();
+  }
+}
+
+/// Of a force and a moment six tensions tell two that explain them: the lesser is answered, and the other
+/// told.
+TEST(ArmQueries, AnotherWrenchThatExplainsTensionsIsTold) {
+  const std::vector<double> force{0.05, -0.03, 0.02, 0, 0, 0};
+  const auto ask_two = [](const Json& question) { return ask("two-segment", {question})[0]; };
+  const Json there =
+      ask_two({{"query", "forward"}, {"tensions", {{1.0, 0.5, 0.7}, {0.4, 0.8, 0.3}}}, {"wrench", force}});
+  ASSERT_EQ(there["status"], "converged") << there.dump();
+  Json question = {{"query", "statics"},
+                   {"changes", there["changes"]},
+                   {"measured_tensions", {1.0, 0.5, 0.7, 0.4, 0.8, 0.3}},
+                   {"deviation", 0.01}};
+  question["force_alone"] = false;
+  const Json found = ask_two(question);
+  ASSERT_EQ(found["status"], "converged") << found.dump();
+  EXPECT_LT(found["misfit"], 1e-4);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found["wrench"][i], force[i], 1e-5) << i;
+  EXPECT_EQ(found.value("message", "").rfind("another wrench, [0.022, -0.0174, -0.078", 0), 0U)
+      << found.dump();
+  question["force_alone"] = true;
+  EXPECT_FALSE(ask_two(question).contains("message"));
+}
+
 TEST(ArmQueries, TellsNoCovarianceOfAWrenchThatIsNotTold) {
   const Json loose = ask("tendon-rod", {{{"query", "statics"},
                                          {"changes", {{0, 0, 0, 0}}},

@@ -67,6 +67,100 @@ TEST(PlanarArmLegsQuery, OfConstantCurvatureItIsTheKinematicRobot) {
   }
 }
 
+Json same_of_all(const Json& pair) { return {pair, pair, pair, pair, pair, pair}; }
+
+/// Legs of these models do not stretch and tendons neither: two of a section hold one bend twice.
+TEST(PlanarArmLegsQuery, TendonsThatHoldEachOtherHaveTheLeastTensions) {
+  for (const char* model : {"cc", "subsegment_cc", "prb"}) {
+    const Json rest = {{"query", "forward"}, {"model", model}, {"changes", same_of_all({0, 0})}};
+    const Json pulled = {{"query", "forward"}, {"model", model}, {"tensions", same_of_all({1, 1})}};
+    const auto answers = ask(robot, {rest, pulled});
+    for (const Json& found : answers) {
+      ASSERT_EQ(found["status"], "converged") << model << found.dump();
+      EXPECT_LT(std::abs(found["pose"]["x"].get<double>()), 1e-9) << model;
+    }
+    for (const Json& pair : answers[0]["tensions"])
+      for (const Json& tension : pair) EXPECT_LT(tension.get<double>(), 1e-9) << model;
+  }
+}
+
+TEST(PlanarArmLegsQuery, ChangesOfTensionsLeadBackToTheirPose) {
+  const Json tensions = {{1.27, 1.93}, {0.72, 1.92}, {0.97, 1.13}, {1.74, 1.11}, {1.32, 0.54}, {1.63, 1.31}};
+  for (const char* model : {"cc", "subsegment_cc", "prb", "subsegment_rod"}) {
+    Json question = {{"query", "forward"}, {"model", model}, {"wrench", {0.05, 0.04, 0.002}}};
+    question["tensions"] = tensions;
+    const Json there = ask(robot, {question})[0];
+    ASSERT_EQ(there["status"], "converged") << there.dump();
+    question.erase("tensions");
+    question["changes"] = there["changes"];
+    const Json back = ask(robot, {question})[0];
+    ASSERT_EQ(back["status"], "converged") << model << back.dump();
+    for (const char* key : {"x", "y", "phi"})
+      EXPECT_NEAR(back["pose"][key].get<double>(), there["pose"][key].get<double>(), 1e-8) << model;
+    // Sections of one bend each: of a pair one tendon holds it.
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double tension = back["tensions"][i][k], before = tensions[i][k];
+        if (model == std::string("cc"))
+          EXPECT_LT(tension, before) << i << k;
+        else
+          EXPECT_NEAR(tension, before, 1e-3) << model << i << k;
+      }
+  }
+}
+
+/// Of tensions that lengths do not determine, whatever was measured explains itself; and where the way from
+/// no wrench has no equilibrium the search begins elsewhere.
+TEST(PlanarArmLegsQuery, ExactTensionsTellTheWrench) {
+  const Json tensions = {{1.81, 0.74}, {1.41, 1.04}, {1.27, 0.95}, {1.55, 1.09}, {0.77, 1.34}, {1.79, 0.97}};
+  const std::vector<double> wrench{0.05, 0.04, 0.002};
+  const Json load = {{"leg", 1}, {"place", 0.1}, {"wrench", {0.05, -0.02, 0}}};
+  for (const char* model : {"cc", "subsegment_cc", "prb"})
+    for (const bool has_loads : {true, false}) {
+      Json question = {{"query", "forward"}, {"model", model}};
+      if (has_loads) question["distributed"] = {0.1, 0.2, 0}, question["loads"] = Json::array({load});
+      Json forward = question;
+      forward["tensions"] = tensions;
+      forward["wrench"] = wrench;
+      const Json there = ask(robot, {forward})[0];
+      ASSERT_EQ(there["status"], "converged") << there.dump();
+      question["query"] = "statics";
+      question["changes"] = there["changes"];
+      question["deviation"] = 0.01;
+      question["force_alone"] = false;
+      question["measured_tensions"] = Json::array();
+      for (const Json& pair : tensions)
+        for (const Json& tension : pair) question["measured_tensions"].push_back(tension);
+      const Json found = ask(robot, {question})[0];
+      ASSERT_EQ(found["status"], "converged") << model << found.dump();
+      EXPECT_LT(found["misfit"], 1e-3) << model;
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found["wrench"][i], wrench[i], 1e-5) << model << i;
+      EXPECT_FALSE(found.contains("message")) << found["message"];
+    }
+}
+
+TEST(PlanarArmLegsQuery, WhatNoWrenchExplainsIsSaid) {
+  const Json found = ask(robot, {{{"query", "statics"},
+                                  {"changes", same_of_all({-1e-3, 1e-3})},
+                                  {"measured_tensions", {2, 0, 3, 0, 2, 0, 1, 0, 9, 0, 2, 0}},
+                                  {"deviation", 0.01},
+                                  {"force_alone", false}}})[0];
+  EXPECT_TRUE(found.contains("message")) << found.dump();
+  EXPECT_GT(found["misfit"], 5) << found.dump();
+}
+
+TEST(PlanarArmLegsQuery, ATendonThatIsTooShortIsNamed) {
+  Json changes = same_of_all({0, 0});
+  changes[3][0] = -1e-6;
+  for (const char* model : {"cc", "subsegment_cc", "prb"}) {
+    const Json found = ask(robot, {{{"query", "forward"}, {"model", model}, {"changes", changes}}})[0];
+    EXPECT_EQ(found["status"], "unreachable") << model;
+    EXPECT_NE(found["message"].get<std::string>().find("of leg 1 does not stretch and is held too short"),
+              std::string::npos)
+        << found["message"];
+  }
+}
+
 /// What turns with a place is in its axes, x to the right of the way along the backbone and y along it. Small
 /// loads: as dead ones in these axes at rest, but for how far they turn.
 TEST(PlanarArmLegsQuery, WhatTurnsIsInTheAxesOfItsPlace) {

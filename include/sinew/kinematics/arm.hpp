@@ -149,7 +149,8 @@ struct ArmInverseOptions {
   double precision = 1e-7;  ///< of the tip, over the arm's length; angles [rad] alike
   int starts = 12;          ///< shapes from which the search begins, one after the other
 };
-/// Tensions that take the tip to a target. What they are free in goes into the least sum of their squares.
+/// Tensions that take the tip to a target. What they are free in goes into the least sum of their squares, of
+/// those nearby.
 struct ArmInverse {
   Report report;   ///< its residual is what the tip is off: place over the arm's length, angle [rad]
   ArmState state;  ///< with tensions, and the changes for motors that hold those

@@ -110,6 +110,9 @@ SINEW_API ArmLegsHeld arm_legs_hold(const ArmLegs& robot, const SE3<double>& pos
 /// Derivatives of an equilibrium, its platform's twist in base axes, linear first [m, rad].
 struct ArmLegsRates {
   bool regular = false;  ///< the equilibrium is no fold
+  /// Tendons that do not stretch pull against one another with tensions that nothing determines: what is told
+  /// of changes and tensions is of one of them with the others following.
+  bool opposed = false;
   /// The platform's stiffness is finite: else a leg that does not stretch is straight.
   bool has_stiffness = false;
   std::array<double, 36> stiffness{};  ///< wrench by twist, inputs held, rows first [N/m, N, N m]

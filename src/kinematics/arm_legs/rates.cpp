@@ -11,7 +11,9 @@ ArmLegsRates arm_legs_rates(const ArmLegs& robot, ArmLegsWorkspace& work) {
   ArmGroup& group = impl.group();
   group.evaluate();
   ArmGroup::Matrix twists, by_tendon;
-  rates.regular = group.factor_limbs() && group.answers(twists, by_tendon);
+  if (!group.factor_limbs()) return rates;
+  rates.opposed = group.has_redundant_tendons();
+  rates.regular = group.answers(twists, by_tendon);
   if (!rates.regular) return rates;
   const auto flat = [](const ArmGroup::Matrix& matrix) {
     return std::vector<double>(matrix.data(), matrix.data() + matrix.size());

@@ -64,11 +64,19 @@ ArmSensed arm_sense(const Arm& arm, const ArmMeasurement& measured, const ArmLoa
   MeasuredArm body(arm, measured, load, options, work);
   const FoundWrench found = search_wrench({.first = load.wrench,
                                            .unknowns = unknowns,
+                                           .known = load.wrench,
                                            .length = arm.length(),
                                            .usual = usual_force(arm),
                                            .from_last = options.from_last},
                                           body);
   sensed.report = found.report;
+  report_misfit(found.misfit, sensed.report);
+  if (sensed.report.status == Status::converged && sensed.report.message.empty() && !force_alone &&
+      found.measured == unknowns)
+    sensed.report.message = FixedText<240>(
+        "as much is measured as a wrench has components, so that other wrenches may explain it as well and "
+        "nothing "
+        "would tell: measure more, or ask the force alone");
   for (std::size_t k = 0; k < 6; ++k) sensed.wrench[k] = found.wrench[k] - load.wrench[k];
   sensed.covariance = found.covariance;
   sensed.misfit = found.misfit;

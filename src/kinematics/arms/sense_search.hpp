@@ -51,6 +51,9 @@ struct WrenchSearch {
   std::size_t unknowns = 6;       ///< 3: the force alone
   /// Which components of the wrench they are; moments come last.
   std::array<std::size_t, 6> components{0, 1, 2, 3, 4, 5};
+  /// Of it what acts anyway [N, N m]: of several wrenches that explain what was measured as well the one that
+  /// is least beside this is answered.
+  std::array<double, 6> known{};
   double length = 0;  ///< by which moments count [m]
   double usual = 0;   ///< force that bends much [N]: further no step goes at first
   bool from_last = false;
@@ -60,10 +63,18 @@ struct FoundWrench {
   Report report;
   std::array<double, 6> wrench{};       ///< all of it [N, N m]
   std::array<double, 36> covariance{};  ///< of its unknowns [N², N² m, N² m²]
+  std::size_t measured = 0;             ///< numbers that were compared [1]
   double misfit = not_a_number;         ///< root mean square [1]; not a number: nothing was compared
   double condition =
       0;  ///< of the wrench, moments over the length: best known over worst known direction [1]
 };
+/// A misfit beyond which what is measured is not explained [1]: of errors as large as they are said to be it
+/// is about 1, and hardly ever that large.
+inline constexpr double large_misfit = 5;
+/// Says so of a wrench that was found, or that the search was cut off.
+void report_misfit(double misfit, Report& report);
+
+/// Where another wrench was found that explains what was measured as well the message tells it.
 /// The body is left in the equilibrium of the answer, or near it.
 FoundWrench search_wrench(const WrenchSearch& search, LoadedBody& body);
 

@@ -211,6 +211,10 @@ void put_arm_wants(ArmContextOf<Arms>& context, const typename ArmTypes<Arms>::S
                                                : "rates and margins are told of balances by energy alone");
     return;
   }
+  if constexpr (!is_arm)
+    if (rates.opposed)
+      return context.add_message(
+          "tendons that do not stretch are held against one another: there is an equilibrium, but no rates");
   Value& answer = context.answer;
   const bool planar = is_planar(context.robot);
   const std::size_t tendons = state.tensions.size();

@@ -1,6 +1,7 @@
 /// @file arm_group.hpp
 /// Arms between a base and a platform as one group of limbs. Theory: docs/theory/arm_legs.md
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -43,6 +44,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   double length(int limb) const override;
   double stiffness(int limb) const override;
   double radius() const override { return radius_; }
+  double size() const;  ///< the longest leg [m]
 
   int feeds() const override { return feeds_; }
   int input_of(int feed) const override { return feed; }
@@ -98,6 +100,25 @@ class ArmGroup final : public LimbGroup<Spatial> {
   Wrench constraint_wrench() const { return -balance_; }
   /// @}
 
+  /// Tendons whose lengths are prescribed give way by this share of what an arm yields to them where that is
+  /// more than their own compliance, about the tensions that they have now; 0: by their own alone.
+  void soften(double share);
+  struct LengthError {
+    double error = 0;  ///< > 0: it is longer than it is held [m]
+    int feed = -1;
+  };
+  /// Of softened tendons that which is farthest from as long as it is held.
+  LengthError softened_error() const;
+  /// Tendons that do not stretch pull against one another, and nothing that is prescribed determines with
+  /// what. After `factor_limbs`.
+  bool has_redundant_tendons() const;
+  /// Tensions of which any multiple may be added without any change of shape, columns without dimension: of
+  /// tendons that are as long as their way and hold a leg more often than once. After `factor_limbs`.
+  Eigen::MatrixXd undetermined_tensions() const;
+  /// By how much the planned step changes tensions that are not determined, to the least ones, over usual
+  /// tensions. After `factor_limbs`.
+  double relief() const;
+
   /// The tension or the change that the tendon has.
   double value_of(int feed, TendonHeld quantity) const {
     return quantity == TendonHeld::tension ? tension(feed) : change(feed);
@@ -125,8 +146,12 @@ class ArmGroup final : public LimbGroup<Spatial> {
     double free_length = 0, target = 0;  ///< at the share that acts [m], [N]
     double tension = 0;                  ///< [N]
     double unit = 0;                     ///< of its own length's error by tension [m/N]
+    double expected = 0;                 ///< at which a softened one is as long as it should be [N]
     bool is_taut = false;                ///< its length is prescribed and it pulls
-    int place = -1;                      ///< among the unknown forces, or the prescribed tensions
+    /// It is, but others prescribe the length of its way already: its tension is not determined.
+    bool is_redundant = false;
+    double relief = 0;  ///< of the next step, by which redundant ones come to the least tensions [N]
+    int place = -1;     ///< among the unknown forces, or the prescribed tensions
   };
   struct Leg {
     const ArmLeg* own;
@@ -138,6 +163,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
     Vec<double, 6> gap = Vec<double, 6>::Zero();  ///< of the rest at home: what closes as the share grows
     strain::NodeLoad tip;                         ///< its weight, and what of loads on the leg acts there
     Vec<double, 6> off = Vec<double, 6>::Zero();  ///< closure's error
+    Eigen::MatrixXd undetermined;                 ///< tensions that act on no strain, a row each tendon
     int taut = 0, closed = 3;                     ///< unknown forces: of tendons, of the closure
     /// Which of force and moment the closure's unknowns are: 0 to 2 and 3 to 5.
     std::array<int, 6> components{0, 1, 2, 3, 4, 5};
@@ -170,9 +196,18 @@ class ArmGroup final : public LimbGroup<Spatial> {
   /// Of a robot in the plane: what moves it out is as stiff as `units` say, and coupled to nothing.
   void constrain_to_plane(Eigen::Ref<Matrix> by_twist, const std::array<double, 2>& units) const;
   static double yields(const Arm& arm, const ArmTendon& tendon);
-  static double measure_tendons(Leg& leg);
+  /// By which a tendon gives way more than by its own compliance [m/N].
+  double softness(const Tendon& tendon) const {
+    return std::max(0.0, softness_ * tendon.unit - tendon.compliance);
+  }
+  double missing_length(const Leg& leg, std::size_t index) const;
+  double measure_tendons(Leg& leg);
+  void leave_out_redundant_tendons(Leg& leg) const;
+  static void set_undetermined(Leg& leg, const std::vector<std::size_t>& tight,
+                               const std::vector<double>& gradients);
+  static void relieve(Leg& leg, const std::vector<std::size_t>& tight);
   void evaluate(Leg& leg);
-  static void set_tendon_rows(Leg& leg);
+  void set_tendon_rows(Leg& leg) const;
   void set_closure_rows(Leg& leg);
   static void condense(Leg& leg);
   bool factor(Leg& leg);
@@ -206,7 +241,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
   Frame platform_;
   Wrench wrench_ = Wrench::Zero();
   LegsLoads loads_;
-  double share_ = 0, radius_ = 0;
+  double share_ = 0, radius_ = 0, softness_ = 0;
   int feeds_ = 0;
   double limb_error_ = 0, planned_size_ = 0;
   Wrench balance_ = Wrench::Zero(), residual_ = Wrench::Zero();

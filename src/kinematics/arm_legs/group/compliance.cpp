@@ -26,18 +26,18 @@ ArmGroup::Vector ArmGroup::units_of(const Leg& leg) const {
 }
 
 /// Rows of the tendons: of taut ones among the unknowns, of prescribed tensions in L.
-void ArmGroup::set_tendon_rows(Leg& leg) {
+void ArmGroup::set_tendon_rows(Leg& leg) const {
   const strain::RodWork& work = rod(leg).work();
   const int n = rod(leg).model().size;
-  leg.L.setZero(static_cast<int>(leg.tendons.size()) - leg.taut, n);
+  leg.L.setZero(static_cast<int>(leg.tendons.size()), n);
   int prescribed = 0;
   for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
     const Tendon& tendon = leg.tendons[i];
     const Eigen::Map<const Eigen::RowVectorXd> row(work.length_gradient.data() + i * at(n), n);
     if (tendon.is_taut) {
       leg.B.row(tendon.place) = row;
-      leg.r[tendon.place] = work.lengths[i] - tendon.free_length - tendon.compliance * tendon.tension;
-      leg.C[tendon.place] = tendon.compliance;
+      leg.r[tendon.place] = missing_length(leg, i);
+      leg.C[tendon.place] = tendon.compliance + softness(tendon);
     } else if (tendon.command.held == TendonHeld::tension) {
       leg.L.row(tendon.place) = row;
       ++prescribed;
@@ -100,6 +100,7 @@ bool ArmGroup::factor(Leg& leg) {
   const strain::RodModel& model = rod(leg).model();
   const strain::Inertia inertia = strain::factor(model, rod(leg).work(), 0);
   if (!inertia.ok) return false;
+  leave_out_redundant_tendons(leg);
   const int all = leg.unknowns();
   leg.negative = inertia.negative;
   leg.B.setZero(all, model.size);

@@ -87,6 +87,7 @@ void ArmGroup::advance(Leg& leg, const Frame& after, Numbers by_input) {
   Vector step = leg.y0 - leg.HB * leg.du;
   for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
     Tendon& tendon = leg.tendons[i];
+    tendon.tension += tendon.relief;
     if (tendon.is_taut)
       tendon.tension += leg.du[tendon.place];
     else if (tendon.command.held == TendonHeld::tension && !by_input.empty())

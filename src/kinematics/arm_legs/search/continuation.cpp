@@ -51,7 +51,56 @@ LegsFound continue_to_end(ArmGroup& group, const Put& put, bool is_pose_prescrib
   }
 }
 
+/// Tendons become stiffer by this factor at a time [1], less where that leads to no equilibrium, and no more
+/// often than factors that do not matter are tried; down to this share of what the arm yields to them [1].
+/// Then lengths are off by no more than this over the leg's [1], within reach of Newton's method, or the
+/// rounds end.
+constexpr double stiffer = 0.1, hardly_stiffer = 0.8, least_softness = 1e-6, nearly_as_long = 1e-9;
+constexpr int most_rounds_of_tightening = 40;
+/// Where tendons are as stiff as this [1] and one is too long, it is its length that has no equilibrium.
+constexpr double short_at = 1e-3;
+
 }  // namespace
+
+LegsFound tighten_legs(ArmGroup& group, double softness, bool is_pose_prescribed, NewtonBudget& budget) {
+  LimbState last = group.state();
+  double factor = stiffer;
+  LegsFound found;
+  ArmGroup::LengthError left;
+  const auto go_to = [&](double share) {
+    group.soften(share);
+    found = iterate_legs(group, is_pose_prescribed, budget);
+    if (found.status == Status::converged &&
+        !(group.clamps_are_aligned() && is_stable(group, is_pose_prescribed)))
+      found.status = Status::unstable;
+    return found.status == Status::converged;
+  };
+  for (int round = 0; round < most_rounds_of_tightening && factor < hardly_stiffer; ++round) {
+    const double share = std::max(least_softness, factor * softness);
+    if (go_to(share)) {
+      group.save(last);
+      const bool is_stiffest = softness == least_softness;
+      softness = share;
+      left = group.softened_error();
+      if (is_stiffest && std::abs(left.error) < nearly_as_long * group.size()) break;
+    } else if (found.status == Status::stopped || found.status == Status::iteration_limit) {
+      break;
+    } else {
+      group.restore(last);
+      factor = std::sqrt(factor);
+    }
+  }
+  if (found.status != Status::stopped && found.status != Status::iteration_limit && !go_to(0)) {
+    found.status = Status::stalled;
+    if (softness <= short_at && left.error > nearly_as_long * group.size())
+      found = {.status = Status::unreachable,
+               .residual = found.residual,
+               .short_tendon = left.feed,
+               .short_by = left.error};
+  }
+  group.soften(0);
+  return found;
+}
 
 ArmGroup::Frame displaced_by_share(const ArmGroup::Frame& from, const Vec<double, 6>& twist, double share) {
   return {from.p + share * twist.head<3>(),

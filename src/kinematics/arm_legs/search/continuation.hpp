@@ -17,6 +17,12 @@ LegsFound grow_legs(ArmGroup& group, NewtonBudget& budget, double& reached);
 LegsFound walk_legs(ArmGroup& group, const LegsProblem& problem, NewtonBudget& budget, double& reached,
                     int max_steps = 0);
 
+/// From an equilibrium with softened tendons to one with tendons as they are: what softening gave way by is
+/// taken back and tendons become stiffer, in turn (the method of multipliers).
+/// `unreachable` where they are nearly as stiff as they are and still too long.
+/// @param softness the share by which they are softened
+LegsFound tighten_legs(ArmGroup& group, double softness, bool is_pose_prescribed, NewtonBudget& budget);
+
 /// At a share of the way by a twist, its translation and its rotation evenly.
 ArmGroup::Frame displaced_by_share(const ArmGroup::Frame& from, const Vec<double, 6>& twist, double share);
 

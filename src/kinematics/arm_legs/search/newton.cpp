@@ -18,6 +18,10 @@ constexpr double slow_share = 0.3;
 /// ... and where two of them follow within this multiple of the tolerance [1] what is left is taken for
 /// rounding of large terms that cancel; further away it is a failure to converge.
 constexpr double rounding_multiple = 1e3;
+/// Tensions over usual ones [1] that are as good as the least, and times that they are looked for [1]: one
+/// does where shapes do not depend on them.
+constexpr double least_relief = 1e-9;
+constexpr int most_reliefs = 3;
 
 }  // namespace
 
@@ -52,6 +56,26 @@ LegsFound iterate_legs(ArmGroup& group, bool is_pose_prescribed, NewtonBudget& b
 bool is_stable(ArmGroup& group, bool is_pose_prescribed) {
   return group.factor_limbs() &&
          (is_pose_prescribed ? group.unstable_at_prescribed_pose() : group.unstable()) == 0;
+}
+
+void come_to_least_tensions(ArmGroup& group, bool is_pose_prescribed, NewtonBudget& budget,
+                            LegsFound& found) {
+  for (int round = 0; round < most_reliefs && found.status == Status::converged; ++round) {
+    if (!group.factor_limbs() || !(group.relief() > least_relief)) return;
+    const LimbState before = group.state();
+    if (is_pose_prescribed ? group.plan_at_prescribed_pose() : group.plan()) {
+      group.move_as_planned();
+      ++budget.iterations;
+      const LegsFound after = iterate_legs(group, is_pose_prescribed, budget);
+      if (after.status == Status::converged && is_stable(group, is_pose_prescribed)) {
+        found.residual = after.residual;
+        continue;
+      }
+    }
+    group.restore(before);
+    group.evaluate();
+    return;
+  }
 }
 
 }  // namespace sinew::inline v1

@@ -12,6 +12,9 @@ struct LegsFound {
   double residual = 0;
   /// Of a search in steps that is `stalled`: of the last step that was tried.
   Status last_step = Status::converged;
+  /// Of one that is `unreachable`: the tendon that is held too short, of all legs', and by how much [m].
+  int short_tendon = -1;
+  double short_by = 0;
 };
 
 /// Newton's steps of a search: what ends them, and how many all its stages have taken together.
@@ -32,5 +35,9 @@ struct NewtonBudget {
 LegsFound iterate_legs(ArmGroup& group, bool is_pose_prescribed, NewtonBudget& budget);
 /// Of an equilibrium that the group was evaluated at; factors its legs.
 bool is_stable(ArmGroup& group, bool is_pose_prescribed);
+
+/// Where tensions are not determined, from a converged equilibrium to the least ones, which is where it stays
+/// if they are found.
+void come_to_least_tensions(ArmGroup& group, bool is_pose_prescribed, NewtonBudget& budget, LegsFound& found);
 
 }  // namespace sinew::inline v1

@@ -36,6 +36,7 @@ class EquilibriumSearch {
       found_ = refine_levels(robot_, problem_, options_, work_, {true, goes_on_ && !begins_anew_}, budget_,
                              found_);
     group_ = &impl_.group();
+    come_to_least_tensions(*group_, is_pose_prescribed_, budget_, found_);
     write_report();
     write_stability();
     write_legs_state(robot_, *group_, impl_.state);
@@ -87,6 +88,25 @@ class EquilibriumSearch {
       put_at_rest();
       found_ = begin_unloaded(*group_, problem_, budget_, reached);
     }
+    if (found_.status == Status::stalled &&
+        std::ranges::any_of(problem_.commands,
+                            [](const TendonCommand& command) { return command.held == TendonHeld::change; }))
+      try_softened();
+  }
+  /// Where that leads to nothing either, all is as it was.
+  void try_softened() {
+    const LimbState before = group_->state();
+    double reached = 0;
+    put_at_rest();
+    if (const LegsFound found = begin_softened(*group_, problem_, budget_, reached);
+        found.status == Status::converged || found.status == Status::stopped ||
+        found.status == Status::unreachable) {
+      found_ = found;
+      if (found.status == Status::converged) impl_.state.reached = reached;
+      if (found.status != Status::unreachable) return;
+    }
+    group_->restore(before);
+    group_->evaluate();
   }
   void write_report() {
     ArmLegsState& state = impl_.state;

@@ -43,6 +43,19 @@ std::string words_of_free(bool has_potential, double reached) {
       percent);
 }
 
+/// Which tendon is held too short, and by how much.
+std::string words_of_short_tendon(const ArmLegs& robot, const LegsFound& found) {
+  std::size_t leg = 0;
+  int tendon = found.short_tendon;
+  for (; tendon >= static_cast<int>(robot.legs[leg].arm.tendons.size()); ++leg)
+    tendon -= static_cast<int>(robot.legs[leg].arm.tendons.size());
+  return fmt::format(
+      "tendon {} of leg {} does not stretch and is held too short, against others or beyond what the leg can "
+      "bend: "
+      "the nearest shape that was found has it longer by {:.3g} m",
+      tendon, leg, found.short_by);
+}
+
 /// Why a platform is not kept at the prescribed pose, and the way out.
 std::string words_of_pose(const ArmLegs& robot, const LegsProblem& problem, const LegsFound& found,
                           double reached) {
@@ -70,6 +83,8 @@ std::string words_of_search(const ArmLegs& robot, const LegsProblem& problem, co
   switch (found.status) {
     case Status::stalled:
       return has_pose ? words_of_pose(robot, problem, found, reached) : words_of_free(has_potential, reached);
+    case Status::unreachable:
+      return words_of_short_tendon(robot, found);
     case Status::iteration_limit:
       return fmt::format("the bound on iterations was met at {:.2f} % {}", 100 * reached, of_what);
     case Status::stopped:

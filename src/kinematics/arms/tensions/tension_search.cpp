@@ -51,6 +51,8 @@ constexpr double first_radius = 0.5, first_radius_along = 0.1;
 /// that no step is left.
 constexpr double least_radius_along = 1e-3, least_tension_radius = 1e-8, least_change_along = 1e-4,
                  least_change = 1e-13;
+/// Steps from a step along the target back to it [1]: errors square with each.
+constexpr int most_steps_back = 3;
 /// A radius that was used up doubles, and one that was too large becomes this share of the step [1].
 constexpr double wider = 2, narrower = 0.4;
 /// A step along the target to a larger sum is taken where it leaves less than this share of what the tip is
@@ -134,18 +136,34 @@ class TensionSteps {
     phase_ = Phase::there;
     return true;
   }
-  /// Tensions that meet the target where the body is linear in them. False where it has no rates.
-  bool aim(std::vector<double>& next) {
+  /// Tensions that meet the target where the body is linear in them: the nearest to `centre`. False where it
+  /// has no rates. @param from of the body's equilibrium
+  bool aim(const std::vector<double>& from, const std::vector<double>& centre, std::vector<double>& next) {
     std::vector<double> J;
     if (!body_.rates(J)) return false;
     const std::size_t m = search_.tendons;
     const TargetRows rows = rows_of(target_, body_.tip(), J, search_.length);
     std::vector<double> b = rows.off;
     for (std::size_t r = 0; r < b.size(); ++r)
-      for (std::size_t i = 0; i < m; ++i) b[r] += rows.J[r * m + i] * tensions_[i];
-    next = bounded_least_squares(rows.J, b, phase_ == Phase::least ? std::vector<double>(m, 0.0) : tensions_,
-                                 search_.most);
+      for (std::size_t i = 0; i < m; ++i) b[r] += rows.J[r * m + i] * from[i];
+    next = bounded_least_squares(rows.J, b, centre, search_.most);
     return true;
+  }
+  /// From a step along the target back to it, by the nearest tensions: sums tell nothing off it, since
+  /// tensions bring the tip along an arm by very little.
+  /// @param next of the step, then of where it ends; @returns what is off there
+  double back_to_target(std::vector<double>& next, double after, Report& trial) {
+    for (int k = 0; k < most_steps_back && after > search_.precision && after < near_target; ++k) {
+      std::vector<double> nearer;
+      if (!aim(next, next, nearer)) return error_of_none;
+      trial = pull(nearer, true);
+      if (!trial.is_solved()) return error_of_none;
+      const double now = error();
+      if (!(now < after)) return error_of_none;
+      next = nearer;
+      after = now;
+    }
+    return after;
   }
   /// @returns whether the way goes on
   bool step() {
@@ -154,7 +172,9 @@ class TensionSteps {
       phase_ = Phase::least, radius_ = std::max(radius_, first_radius_along * usual);
     if (phase_ == Phase::exact && error_ <= search_.precision) return false;
     std::vector<double> next;
-    if (!aim(next)) return false;
+    const bool goes_along = phase_ == Phase::least;
+    if (!aim(tensions_, goes_along ? std::vector<double>(search_.tendons, 0.0) : tensions_, next))
+      return false;
     double longest = 0;
     for (std::size_t i = 0; i < next.size(); ++i)
       longest = std::max(longest, std::abs(next[i] - tensions_[i]));
@@ -165,9 +185,10 @@ class TensionSteps {
     if (longest < least_change * usual) return false;
     const double share = std::min(1.0, radius_ / longest);
     for (std::size_t i = 0; i < next.size(); ++i) next[i] = tensions_[i] + share * (next[i] - tensions_[i]);
-    const Report trial = pull(next, true);
+    Report trial = pull(next, true);
+    double after = trial.is_solved() ? error() : error_of_none;
+    if (goes_along) after = back_to_target(next, after, trial);
     if (trial.status == Status::stopped) return end_with(trial);
-    const double after = trial.is_solved() ? error() : error_of_none;
     if (!is_better(next, after, longest)) return step_back(longest);
     longest_before_ = longest;
     if (share < 1) radius_ *= wider;
@@ -178,7 +199,9 @@ class TensionSteps {
   }
   bool is_better(const std::vector<double>& next, double after, double longest) const {
     if (phase_ != Phase::least) return after < error_;
-    // Along the target the sum may rise a little again where that leads back to it.
+    if (after <= search_.precision && error_ > search_.precision) return true;
+    if (error_ <= search_.precision) return after <= search_.precision && squares(next) < squares(tensions_);
+    // Near the target the sum may rise a little again where that leads back to it.
     const bool leads_back = after < much_nearer * error_ ||
                             (after < far_multiple * search_.precision && longest < longest_before_);
     return after < near_target && (squares(next) < squares(tensions_) || leads_back);
