@@ -234,8 +234,8 @@ Errors Answer::errors() const {
     const std::size_t known = said.find("Known here: ");
     if (const std::string name = option_of(key); !name.empty())
       return {{text("error.code"), "--" + name,
-               fmt::format("this robot, or what is asked of it, has no use for it; leave it out. {}",
-                           known == said.npos ? "" : keys_as_options(std::string_view(said).substr(known)))}};
+               "this robot, or what is asked of it, has no use for it; leave it out" +
+                   (known == said.npos ? "" : ". " + keys_as_options(std::string_view(said).substr(known)))}};
   }
   if (where == "query")  // the command line as a whole
     return {{text("error.code"), "", in_options(keys_as_options(said))}};

@@ -1,5 +1,6 @@
 /// `describe`: what a robot with a platform has.
 #include "io/document/quantity.hpp"
+#include "leg/input_limits.hpp"
 #include "query/context.hpp"
 #include "query/handlers.hpp"
 #include "query/questions.hpp"
@@ -85,16 +86,10 @@ Value leg_value(const RodLeg& leg, const LegPlace& place) {
 /// Name, unit and, of tendons, limits: the ends of the curvature's domain. A rail has none.
 template <class LegT>
 void add_inputs(Value& inputs, const LegT& leg, std::size_t index) {
-  const double end = leg.domain();
-  auto q = LegT::Coordinates::Zero().eval();
-  q[LegT::coordinates - 1] = -end;
-  const double a = leg.inputs_of(q)[LegT::inputs - 1];
-  q[LegT::coordinates - 1] = end;
-  const double b = leg.inputs_of(q)[LegT::inputs - 1];
   for (const InputKind& kind : LegT::Drive::input_kinds) {
     Value input{{"name", joined(joined("legs", index), kind.name)}, {"unit", unit(kind.dimension)}};
     if (HasArc<typename LegT::Link> && kind.dimension == Dimension::length)
-      input["limits"] = {std::min(a, b), std::max(a, b)};
+      input["limits"] = {input_limits(leg)[0], input_limits(leg)[1]};
     inputs.push_back(std::move(input));
   }
 }

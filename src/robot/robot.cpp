@@ -8,6 +8,7 @@
 
 #include "base/limits.hpp"
 #include "robot/arms/arm_sections.hpp"
+#include "robot/arms/arm_weight.hpp"
 #include "robot/make_chains.hpp"
 #include "sinew/robot/arm.hpp"
 #include "sinew/robot/arm_legs.hpp"
@@ -139,17 +140,8 @@ const ChainLegs<Spatial>* Robot::spatial_chains() const {
 
 bool has_weight(const Robot& robot) {
   bool has = robot.weight().platform_mass > 0;
-  const auto add = [&](const Arm& arm) {
-    for (const ArmSection& section : arm.sections)
-      has = has || section.start.mass > 0 || section.end.mass > 0 ||
-            (section.discs.count > 0 && section.discs.mass > 0);
-  };
-  if (const Arm* arm = robot.arm()) {
-    has = arm->tip_mass > 0;
-    add(*arm);
-  }
-  if (robot.arm_legs())
-    for (const ArmLeg& leg : robot.arm_legs()->legs) add(leg.arm);
+  if (const Arm* arm = robot.arm()) has = has_weight(*arm);
+  if (const ArmLegs* legs = robot.arm_legs()) has = has || has_weight(*legs);
   for_each_rod(robot, [&](const RodLeg& leg, const LegPlace&, int) { has = has || leg.link.density > 0; });
   return has;
 }

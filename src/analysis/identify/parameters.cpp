@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/identify/quantities.hpp"
+#include "robot/arms/arm_weight.hpp"
 
 namespace sinew::inline v1 {
 
@@ -10,11 +11,7 @@ std::string usual_fit(const MeasuredArm& arm, const MeasuredRows& rows, ArmModel
   std::string names = "sections.bending,sections.angle,sections.compliance";
   if (model != ArmModel::prb) names += ",sections.curvature";
   names += ",tendons.offset,tendons.toe";
-  const bool has_mass =
-      arm.arm.tip_mass > 0 || std::ranges::any_of(arm.arm.sections, [](const ArmSection& one) {
-        return one.start.mass > 0 || one.end.mass > 0 || (one.discs.count > 0 && one.discs.mass > 0);
-      });
-  if (has_mass) names += ",gravity";
+  if (has_weight(arm.arm)) names += ",gravity";
   names += ",marker,base,tilt.x,tilt.y";
   if (!rows.time.empty()) names += ",lag";
   return names;

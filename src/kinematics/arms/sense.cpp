@@ -75,8 +75,7 @@ ArmSensed arm_sense(const Arm& arm, const ArmMeasurement& measured, const ArmLoa
       found.measured == unknowns)
     sensed.report.message = FixedText<240>(
         "as much is measured as a wrench has components, so that other wrenches may explain it as well and "
-        "nothing "
-        "would tell: measure more, or ask the force alone");
+        "nothing would tell: measure more, or ask the force alone");
   for (std::size_t k = 0; k < 6; ++k) sensed.wrench[k] = found.wrench[k] - load.wrench[k];
   sensed.covariance = found.covariance;
   sensed.misfit = found.misfit;

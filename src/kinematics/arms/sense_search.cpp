@@ -192,8 +192,8 @@ class WrenchSteps {
     sensed_.report.status = Status::stalled;
     sensed_.report.message = FixedText<240>(
         "the search for a wrench ends where rates promise a smaller misfit and no step leads to one: "
-        "wrenches on "
-        "the way may hold in another equilibrium or in none; give a start nearer to what was measured");
+        "wrenches "
+        "on the way may hold in another equilibrium or in none; give a start nearer to what was measured");
     return sensed_;
   }
   FoundWrench unsettled() {
@@ -297,8 +297,7 @@ class Alternatives {
       wrench += fmt::format("{}{:.3g}", k > 0 ? ", " : "",
                             other.wrench[search_.components[k]] - search_.known[search_.components[k]]);
     best.report.message = FixedText<240>(
-        fmt::format("another wrench, [{}] with a misfit of {:.2g}, explains what was measured, too: the one "
-                    "of the smaller misfit, or "
+        fmt::format("another wrench, [{}] with a misfit of {:.2g}, explains it, too: that of less misfit, or "
                     "the smaller one, is answered; measure a place, too, or ask the force alone",
                     wrench, other.misfit));
   }

@@ -11,6 +11,7 @@
 #include "query/arms/arms.hpp"
 #include "query/tip.hpp"
 #include "robot/arms/arm_model.hpp"
+#include "robot/arms/arm_weight.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v1 {
@@ -159,24 +160,9 @@ ArmLegsPointLoad read_point_load(const ArmLegs& robot, Reader& load) {
   return point;
 }
 
-}  // namespace
-
-namespace {
-
-bool has_weight(const Arm& arm) {
-  return arm.tip_mass > 0 || std::ranges::any_of(arm.sections, [](const ArmSection& section) {
-           return section.start.mass > 0 || section.end.mass > 0 ||
-                  (section.discs.count > 0 && section.discs.mass > 0);
-         });
-}
-bool has_weight(const ArmLegs& robot) {
-  return robot.platform_mass > 0 ||
-         std::ranges::any_of(robot.legs, [](const ArmLeg& leg) { return has_weight(leg.arm); });
-}
 constexpr std::string_view no_weight(const Arm&) {
   return "has no effect: nothing of this robot has a mass; give its backbones a density, its discs or its "
-         "tip "
-         "a mass";
+         "tip a mass";
 }
 constexpr std::string_view no_weight(const ArmLegs&) {
   return "has no effect: nothing of this robot has a mass; give its backbones a density, its discs or its "

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/at.hpp"
+#include "leg/input_limits.hpp"
 #include "leg/leg_curvature.hpp"
 #include "solve/message.hpp"
 
@@ -29,16 +30,11 @@ void say_beyond_domain(const LegT& leg, int input, double value, Report& report)
   text.append(std::isfinite(value) ? " " : ", which ");
   text.append(LegT::Link::beyond_domain);
   if constexpr (HasArc<typename LegT::Link>) {
-    auto q = LegT::Coordinates::Zero().eval();
-    std::array<double, 2> ends;
-    for (std::size_t k = 0; k < 2; ++k) {
-      q[LegT::coordinates - 1] = k == 0 ? -leg.domain() : leg.domain();
-      ends[k] = leg.inputs_of(q)[LegT::inputs - 1];
-    }
+    const auto [least, most] = input_limits(leg);
     text.append("; give a length between ");
-    append_mm(text, std::min(ends[0], ends[1]));
+    append_mm(text, least);
     text.append(" and ");
-    append_mm(text, std::max(ends[0], ends[1]));
+    append_mm(text, most);
   }
 }
 

@@ -120,11 +120,6 @@ const LimbTraits& ArmGroup::traits() const {
 }
 
 double ArmGroup::length(int limb) const { return legs_[at(limb)].own->arm.length(); }
-double ArmGroup::size() const {
-  double longest = 0;
-  for (const Leg& leg : legs_) longest = std::max(longest, leg.own->arm.length());
-  return longest;
-}
 double ArmGroup::stiffness(int limb) const {
   return rod(legs_[at(limb)]).model().energy_scale * length(limb);
 }

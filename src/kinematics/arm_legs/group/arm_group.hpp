@@ -44,7 +44,6 @@ class ArmGroup final : public LimbGroup<Spatial> {
   double length(int limb) const override;
   double stiffness(int limb) const override;
   double radius() const override { return radius_; }
-  double size() const;  ///< the longest leg [m]
 
   int feeds() const override { return feeds_; }
   int input_of(int feed) const override { return feed; }
@@ -104,7 +103,8 @@ class ArmGroup final : public LimbGroup<Spatial> {
   /// more than their own compliance, about the tensions that they have now; 0: by their own alone.
   void soften(double share);
   struct LengthError {
-    double error = 0;  ///< > 0: it is longer than it is held [m]
+    double error = 0;   ///< > 0: it is longer than it is held [m]
+    double length = 1;  ///< of its leg [m]
     int feed = -1;
   };
   /// Of softened tendons that which is farthest from as long as it is held.

@@ -189,7 +189,8 @@ auto ArmGroup::softened_error() const -> LengthError {
       const Tendon& tendon = leg.tendons[i];
       if (tendon.command.held != TendonHeld::change) continue;
       const double error = softness(tendon) * (tendon.tension - tendon.expected);
-      if (std::abs(error) > std::abs(worst.error)) worst = {error, leg.first_feed + static_cast<int>(i)};
+      if (std::abs(error) > std::abs(worst.error))
+        worst = {error, leg.own->arm.length(), leg.first_feed + static_cast<int>(i)};
     }
   return worst;
 }

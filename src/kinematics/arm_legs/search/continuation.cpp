@@ -82,7 +82,7 @@ LegsFound tighten_legs(ArmGroup& group, double softness, bool is_pose_prescribed
       const bool is_stiffest = softness == least_softness;
       softness = share;
       left = group.softened_error();
-      if (is_stiffest && std::abs(left.error) < nearly_as_long * group.size()) break;
+      if (is_stiffest && std::abs(left.error) < nearly_as_long * left.length) break;
     } else if (found.status == Status::stopped || found.status == Status::iteration_limit) {
       break;
     } else {
@@ -92,7 +92,7 @@ LegsFound tighten_legs(ArmGroup& group, double softness, bool is_pose_prescribed
   }
   if (found.status != Status::stopped && found.status != Status::iteration_limit && !go_to(0)) {
     found.status = Status::stalled;
-    if (softness <= short_at && left.error > nearly_as_long * group.size())
+    if (softness <= short_at && left.error > nearly_as_long * left.length)
       found = {.status = Status::unreachable,
                .residual = found.residual,
                .short_tendon = left.feed,
